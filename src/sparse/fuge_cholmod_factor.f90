@@ -82,14 +82,14 @@ contains
     real(dp), intent(out) :: pivots(:)
     integer, intent(out) :: failed, status
     integer(c_int), allocatable :: order(:)
-    integer(c_int) :: outcome, place
+    integer(c_int) :: outcome, stopped_at
 
     failed = 0
     status = FUGE_ERR_MEMORY
     allocate (order, source=int(last, c_int))
     outcome = cholmod_factorise(int(size(pivots), c_int), matrix%column, matrix%row, matrix%value, &
-                                size(last, kind=c_int), order, int(columns, c_int), self%handle, pivots, place)
-    failed = int(place)
+                                size(last, kind=c_int), order, int(columns, c_int), self%handle, pivots, stopped_at)
+    failed = int(stopped_at)
     if (outcome == DONE .or. outcome == NOT_DEFINITE) status = FUGE_DONE
     if (outcome == DONE .and. all(order > 0) .and. size(order) > 0) self%last = int(order)
   end subroutine factorise

@@ -69,12 +69,12 @@ contains
   end subroutine multiply
 
   !> Columns of K; arguments as in `fuge_stiffness_type`.
-  subroutine copy_columns(self, places, block)
+  subroutine copy_columns(self, chosen, block)
     class(fuge_sparse_stiffness), intent(in) :: self
-    integer, intent(in) :: places(:)
+    integer, intent(in) :: chosen(:)
     real(dp), intent(out), contiguous :: block(:, :)
 
-    call self%matrix%copy_columns(places, block)
+    call self%matrix%copy_columns(chosen, block)
   end subroutine copy_columns
 
   !> CHOLMOD takes any order.

@@ -1,9 +1,10 @@
 !> Small bodies for the corner cases that both engines must report alike: the same problem on a matrix, on products
 !> alone, and on grids by FFT.
 module corner_scenes
-  use engine_scene_type, only: engine_scene, products_only, tabulate
+  use engine_scene_type, only: engine_scene
   use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_halfspace_operator, fuge_info, FUGE_FREE, FUGE_MEAN, &
     FUGE_PERIODIC, FUGE_PERIODIC_X
+  use influence_matrices, only: matrix_of, products_only
   implicit none
   private
 
@@ -75,7 +76,7 @@ contains
     type is (fuge_halfplane_operator)
       call operator%set(POINTS, 2.0_dp/real(POINTS, dp), 1.0_dp, info, FUGE_MEAN, FUGE_FREE)
     end select
-    call tabulate(scene%operator, scene%alpha)
+    scene%alpha = matrix_of(scene%operator)
   end subroutine set_halfplane
 
   subroutine set_halfspace(boundary, scene)
@@ -88,7 +89,7 @@ contains
     type is (fuge_halfspace_operator)
       call operator%set(ROW, POINTS/ROW, 1.0_dp/3.0_dp, 1.0_dp/3.0_dp, 1.0_dp, info, FUGE_MEAN, boundary)
     end select
-    call tabulate(scene%operator, scene%alpha)
+    scene%alpha = matrix_of(scene%operator)
   end subroutine set_halfspace
 
 end module corner_scenes

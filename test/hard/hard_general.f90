@@ -10,7 +10,7 @@ module hard_general
     FUGE_WARN_NOT_UNIQUE
   use fuge_number_text, only: text
   use general_reference, only: infinity, integers, solve_general
-  use hard_matrices, only: integer_bed
+  use influence_matrices, only: integer_bed
   implicit none
   private
 

@@ -9,8 +9,8 @@ module hard_scenes
     FUGE_ERR_NOT_DEFINITE, FUGE_MEAN, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
   use fuge_number_text, only: text
   use general_reference, only: draw, integers
-  use hard_matrices, only: cell_middles, halfplane, integer_bed, overlapping_halfplane, ring_of_springs, string, &
-    tridiagonal
+  use influence_matrices, only: cell_middles, coupled_springs, halfplane, integer_bed, overlapping_halfplane, &
+    ring_of_springs, string, tridiagonal
   use hard_scene_type, only: hard_scene, from_answer, from_data, set_answer
   implicit none
   private
@@ -528,13 +528,10 @@ contains
   pure function bowl(n) result(scene)
     integer, intent(in) :: n
     type(hard_scene) :: scene
-    real(dp) :: alpha(n, n)
-    integer :: i, j
+    integer :: j
 
-    do j = 1, n
-      alpha(:, j) = [(1.0_dp/(1.0_dp + 0.3_dp*real(abs(i - j), dp)), i=1, n)]
-    end do
-    scene = from_data('bowl', '', alpha, [(0.02_dp*(real(j, dp) - 0.47_dp*real(n, dp))**2, j=1, n)], 1.0_dp)
+    scene = from_data('bowl', '', coupled_springs(n), &
+                      [(0.02_dp*(real(j, dp) - 0.47_dp*real(n, dp))**2, j=1, n)], 1.0_dp)
   end function bowl
 
   !> A cylinder on a steel half-plane, 1e7 N per m; `metre` is the unit of length in m.

@@ -1,11 +1,12 @@
 !> Bodies of random scenes: matrices of many kinds, and operators by FFT.
 module random_bodies
   use, intrinsic :: iso_fortran_env, only: int64
-  use engine_scene_type, only: engine_scene, products_only, tabulate
+  use engine_scene_type, only: engine_scene
   use fuge, only: dp => fuge_dp, fuge_halfplane_matrix, fuge_halfplane_operator, fuge_halfspace_matrix, &
     fuge_halfspace_operator, fuge_info, FUGE_CENTRE, FUGE_FREE, FUGE_MEAN, FUGE_PERIODIC, FUGE_PERIODIC_X, &
     FUGE_PERIODIC_Y
   use general_reference, only: draw, integers
+  use influence_matrices, only: matrix_of, products_only
   use random_draws, only: chance, decimal, one_of, uniform
   implicit none
   private
@@ -340,7 +341,7 @@ contains
     type is (fuge_halfplane_operator)
       call operator%set(n, 1.0_dp/real(n, dp), 1.0_dp/softness, info, element, boundary)
     end select
-    call tabulate(scene%operator, scene%alpha)
+    scene%alpha = matrix_of(scene%operator)
     scene%singular = boundary == FUGE_PERIODIC
     scene%body = merge('half-plane FFT, free    ', 'half-plane FFT, periodic', boundary == FUGE_FREE)
   end subroutine draw_halfplane_grid
@@ -372,7 +373,7 @@ contains
       call operator%set(cells(1), cells(2), spacing(1), spacing(2), 1.0_dp/softness, info, FUGE_MEAN, &
                         BOUNDARIES(kind))
     end select
-    call tabulate(scene%operator, scene%alpha)
+    scene%alpha = matrix_of(scene%operator)
     scene%singular = BOUNDARIES(kind) == FUGE_PERIODIC
     scene%body = NAMES(kind)
   end subroutine draw_halfspace_grid

@@ -19,6 +19,6 @@ plant(${list} "fuge_gone: gone\n" "untested.txt names fuge_gone, which does not 
 plant(${list} "fuge_c_dense: again\n" "untested.txt names fuge_c_dense twice\n")
 plant(${list} "fuge_silent:\n" "untested.txt gives no reason for fuge_silent\n")
 plant(${list} "fuge_bare\n" "untested.txt: not `module: reason`: fuge_bare\n")
-plant(${list} "fuge_elsewhere: test/api/dense.c and test/api/planted.c\n"
+plant(${list} "fuge_elsewhere: test/api/core/dense.c and test/api/planted.c\n"
   "untested.txt names test/api/planted.c for fuge_elsewhere, which does not exist\n")
 expect_offences(untested.cmake -DROOT=${SCRATCH})

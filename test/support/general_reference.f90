@@ -8,7 +8,7 @@ module general_reference
   implicit none
   private
 
-  public :: draw, integers, solve_general, solve_with, enumerate_states, general_violation, eliminate, infinity
+  public :: draw, integers, solve_general, solve_with, enumerate_states, solve_states, general_violation, eliminate, infinity
   public :: play_of, is_excluded, is_prescribed, modes_of
 
   !> A pivot below this fraction of the largest entry means that the system is singular.
@@ -111,22 +111,24 @@ contains
     if (allocated(problem%modes)) modes = problem%modes
   end function modes_of
 
-  !> Try every combination of states: each point open, at its lower or at its upper stop. `force` and `motion` are
-  !> those of the regular system whose largest relative violation is least, `worst` is that violation;
+  !> Try every combination of states: each point open, at its lower or at its upper stop. `answer` is that of the
+  !> regular system whose largest relative violation is least, zero if there is none; `worst` is that violation;
   !> `all_regular`: no system was singular.
-  pure subroutine enumerate_states(alpha, problem, force, motion, worst, all_regular)
+  pure subroutine enumerate_states(alpha, problem, answer, worst, all_regular)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
-    real(dp), intent(out) :: force(:), motion(:), worst
+    type(fuge_solution), intent(out) :: answer
+    real(dp), intent(out) :: worst
     logical, intent(out) :: all_regular
     type(fuge_solution) :: tried
-    integer :: state(size(force)), code, rest, k
+    integer :: state(problem%points()), code, rest, k
     real(dp) :: violation
     logical :: regular
 
     worst = huge(worst)
-    force = 0.0_dp
-    motion = 0.0_dp
+    answer%force = spread(0.0_dp, 1, problem%points())
+    answer%gap = answer%force
+    answer%motion = spread(0.0_dp, 1, problem%mode_count())
     all_regular = .true.
     do code = 0, 3**size(state) - 1
       rest = code
@@ -135,14 +137,13 @@ contains
         rest = rest/3
       end do
       if (.not. possible(problem, state)) cycle
-      call try_state(alpha, problem, state, tried, regular)
+      call solve_states(alpha, problem, state, tried, regular)
       all_regular = all_regular .and. regular
       if (.not. regular) cycle
       violation = general_violation(alpha, problem, tried)
       if (violation >= worst) cycle
       worst = violation
-      force = tried%force
-      motion = tried%motion
+      answer = tried
     end do
   end subroutine enumerate_states
 
@@ -167,19 +168,23 @@ contains
   end function possible
 
   !> Forces, motions and gaps if each point has this state, unless the linear system is singular.
-  pure subroutine try_state(alpha, problem, state, tried, regular)
+  pure subroutine solve_states(alpha, problem, state, tried, regular)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: state(:)
     type(fuge_solution), intent(inout) :: tried
     logical, intent(out) :: regular
     real(dp) :: system(size(state) + problem%mode_count(), size(state) + problem%mode_count())
-    real(dp) :: right(size(system, 1)), x(size(system, 1)), modes(size(state), problem%mode_count())
+    real(dp) :: right(size(system, 1)), x(size(system, 1)), modes(size(state), problem%mode_count()), datum
     integer :: j, k, n, m
 
     n = size(state)
     m = problem%mode_count()
     modes = modes_of(problem)
+    ! Under a load, gaps count from that of a contact point: a small load is not lost in large gaps.
+    datum = 0.0_dp
+    k = findloc(state > 0, .true., dim=1)
+    if (k > 0 .and. .not. (allocated(problem%modes) .or. allocated(problem%prescribed))) datum = problem%gap(k)
     system = 0.0_dp
     right = 0.0_dp
     do k = 1, n
@@ -188,7 +193,7 @@ contains
       else
         system(k, :n) = alpha(k, :n)
         system(k, n + 1:) = -modes(k, :)
-        right(k) = -problem%gap(k)
+        right(k) = datum - problem%gap(k)
         if (state(k) < 0) right(k) = right(k) + problem%gap_upper(k)
       end if
     end do
@@ -203,13 +208,13 @@ contains
     end do
     call eliminate(system, right, x, regular)
     tried%force = x(:n)
-    tried%motion = x(n + 1:)
+    tried%motion = x(n + 1:) + datum
     tried%gap = problem%gap + matmul(alpha(:n, :n), tried%force) - matmul(modes, tried%motion)
     where (state > 0) tried%gap = 0.0_dp
     if (any(state < 0)) then
       where (state < 0) tried%gap = problem%gap_upper
     end if
-  end subroutine try_state
+  end subroutine solve_states
 
   !> Solve by Gauss-Jordan elimination with row interchanges; x is zero if the matrix is not `regular`.
   pure subroutine eliminate(matrix, right, x, regular)

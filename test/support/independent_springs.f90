@@ -1,8 +1,12 @@
 !> An operator for which contact problems have closed forms: the force of a point displaces that point alone.
 module independent_springs
-  use fuge, only: dp => fuge_dp, fuge_operator, FUGE_DONE
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_operator, FUGE_DONE
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, start_iterate
+  use fuge_contact_scene, only: contact_scene
   implicit none
   private
+
+  public :: set_iterate
 
   !> A is the diagonal matrix of the compliances plus `uniform` everywhere, which is taken out as the datum.
   type, extends(fuge_operator), public :: spring_operator
@@ -11,6 +15,8 @@ module independent_springs
     real(dp) :: uniform = 0.0_dp
     !> Is the inverse of the diagonal matrix offered as a preconditioner?
     logical :: preconditioned = .false.
+    !> What products and preconditionings return.
+    integer :: status = FUGE_DONE
   contains
     procedure :: points
     procedure :: apply
@@ -35,7 +41,7 @@ contains
     integer, intent(out) :: status
 
     displacement = self%compliance*force
-    status = FUGE_DONE
+    status = self%status
   end subroutine apply
 
   function datum(self)
@@ -59,7 +65,24 @@ contains
     integer, intent(out) :: status
 
     force = displacement/self%compliance
-    status = FUGE_DONE
+    status = self%status
   end subroutine precondition
+
+  !> Start from `force` with the contact set `contact`, and the displacements by one product.
+  subroutine set_iterate(a, prescribed, force, contact, iterate)
+    type(spring_operator), intent(in) :: a
+    logical, intent(in) :: prescribed, contact(:)
+    real(dp), intent(in) :: force(:)
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp), allocatable :: start(:)
+    type(fuge_info) :: info
+
+    allocate (start, source=force)
+    call start_iterate(iterate, contact_scene(gap=0.0_dp*force, prescribed=prescribed), start, info)
+    if (info%failed()) error stop 'fuge: an iterate on springs cannot be started'
+    iterate%contact = contact
+    call compute_displacement(a, prescribed, iterate%force, iterate%displacement, info)
+    if (info%failed() .or. info%products /= 1) error stop 'fuge: displacements of springs take one product'
+  end subroutine set_iterate
 
 end module independent_springs

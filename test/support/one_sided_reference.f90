@@ -1,9 +1,8 @@
-!> What problems of one translation and one-sided points are tested against. Of the library only the kind of its
-!> numbers is used. Other than in general_reference, lengths and residuals do not depend on the datum
-!> of gaps and matrix, and forces are exact for loads far below the natural one.
+!> What problems of one translation and one-sided points are tested against. Other than in general_reference, lengths
+!> and residuals do not depend on the datum of gaps and matrix.
 module one_sided_reference
-  use fuge, only: dp => fuge_dp
-  use general_reference, only: eliminate
+  use fuge, only: dp => fuge_dp, fuge_problem, fuge_solution
+  use general_reference, only: enumerate_states
   implicit none
   private
 
@@ -11,52 +10,21 @@ module one_sided_reference
 
 contains
 
-  !> The solution, found by trying every contact set; `worst` is its most negative force, relative to the load, or gap,
-  !> relative to the lengths.
+  !> The solution, found by trying every contact set; `worst` is its largest relative violation.
   pure subroutine enumerate(alpha, gap, load, force, opening, approach, worst)
     real(dp), intent(in) :: alpha(:, :), gap(:), load
     real(dp), intent(out) :: force(:), opening(:), approach, worst
-    real(dp) :: tried_force(size(gap)), tried_opening(size(gap)), tried_approach, tried
-    logical :: set(size(gap)), regular
-    integer :: code, k
+    type(fuge_problem) :: problem
+    type(fuge_solution) :: answer
+    logical :: all_regular
 
-    worst = huge(worst)
-    do code = 1, 2**size(gap) - 1
-      set = [(btest(code, k - 1), k=1, size(gap))]
-      call try_set(alpha, gap, load, set, tried_force, tried_opening, tried_approach, regular)
-      if (.not. regular) cycle
-      tried = max(0.0_dp, -minval(tried_force)/load, &
-                  -minval(tried_opening)/length_of(alpha, gap, load))
-      if (tried >= worst) cycle
-      worst = tried
-      force = tried_force
-      opening = tried_opening
-      approach = tried_approach
-    end do
+    allocate (problem%gap, source=gap)
+    allocate (problem%resultant, source=[load])
+    call enumerate_states(alpha, problem, answer, worst, all_regular)
+    force = answer%force
+    opening = answer%gap
+    approach = answer%motion(1)
   end subroutine enumerate
-
-  !> Forces, gaps and approach if exactly the points of `set` touch, unless the linear system is singular.
-  pure subroutine try_set(alpha, gap, load, set, force, opening, approach, regular)
-    real(dp), intent(in) :: alpha(:, :), gap(:), load
-    logical, intent(in) :: set(:)
-    real(dp), intent(out) :: force(:), opening(:), approach
-    logical, intent(out) :: regular
-    real(dp) :: system(count(set) + 1, count(set) + 1), x(count(set) + 1)
-    integer :: points(count(set)), k, m
-
-    m = count(set)
-    points = pack([(k, k=1, size(set))], set)
-    system(:m, :m) = alpha(points, points)
-    system(:m, m + 1) = -1.0_dp
-    system(m + 1, :m) = 1.0_dp
-    system(m + 1, m + 1) = 0.0_dp
-    ! Gaps relative to that of one point in the set: a small load is not lost in large gaps.
-    call eliminate(system, [gap(points(1)) - gap(points), load], x, regular)
-    force = 0.0_dp
-    force(points) = x(:m)
-    approach = x(m + 1) + gap(points(1))
-    opening = merge(0.0_dp, gap + matmul(alpha, force) - approach, set)
-  end subroutine try_set
 
   !> Is alpha positive definite for forces of zero sum? For matrices of small whole numbers, for which elimination is
   !> exact enough.

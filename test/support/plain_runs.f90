@@ -16,7 +16,7 @@ module plain_runs
   implicit none
   private
 
-  public :: make_plain, run_plain, plain_phase, plain_definite
+  public :: make_plain, pose_canonical, run_plain, plain_phase, plain_definite
 
 contains
 
@@ -50,16 +50,28 @@ contains
     real(dp), intent(in), contiguous, target :: alpha(:, :)
     real(dp), intent(in) :: datum, gap(:), load
     type(canonical_problem), intent(out) :: canonical
-    real(dp), pointer, contiguous :: matrix(:, :)
     type(fuge_problem) :: problem
     type(fuge_info) :: info
 
     call set_problem(gap, load, problem, info)
+    call pose_canonical(alpha, datum, problem, canonical, info)
+  end subroutine make_plain
+
+  !> Any problem as the engines take it; they use alpha less `datum`.
+  subroutine pose_canonical(alpha, datum, problem, canonical, info)
+    real(dp), intent(in), contiguous, target :: alpha(:, :)
+    real(dp), intent(in) :: datum
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(out) :: canonical
+    type(fuge_info), intent(out) :: info
+    real(dp), pointer, contiguous :: matrix(:, :)
+
     call make_canonical(problem, canonical, info)
+    if (info%failed()) return
     ! Through an address: nothing writes to alpha.
     call c_f_pointer(c_loc(alpha(1, 1)), matrix, shape(alpha))
     call canonical%set_matrix(matrix, datum)
-  end subroutine make_plain
+  end subroutine pose_canonical
 
   !> As `run_phase_one`, with the contact set as a mask.
   subroutine plain_phase(alpha, gap, load, rule, max_pivots, keep_history, monitor, history, contact, pivots, status)

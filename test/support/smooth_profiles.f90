@@ -1,11 +1,11 @@
 !> Profiles of smooth punches for tests, by number.
 module smooth_profiles
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use fuge, only: dp => fuge_dp, fuge_polynomial_profile, fuge_smooth_profile
+  use fuge, only: dp => fuge_dp, fuge_polynomial_profile, fuge_power_profile, fuge_smooth_profile
   implicit none
   private
 
-  public :: power_punch
+  public :: power_punch, sum_of_powers
 
   !> Values of `form`, with p the `parameter`: 1 - cos(p x), |x|**3, exp(x) - x, x**4 - p x**2,
   !> x**2 + p cos(20 x), sqrt(1 + (p x)**2), |x|; x**2 whose slope has the relative error p,
@@ -54,6 +54,18 @@ contains
     punch%coefficients = 0.0_dp
     punch%coefficients(power + 1) = 1.0_dp
   end function power_punch
+
+  !> The sum of factors (r - starts)**powers, each from its start on, at r from 0 to `reach`; without starts all at 0.
+  pure function sum_of_powers(factors, powers, reach, starts) result(punch)
+    real(dp), intent(in) :: factors(:), powers(:), reach
+    real(dp), intent(in), optional :: starts(:)
+    type(fuge_power_profile) :: punch
+
+    punch%upper = reach
+    allocate (punch%coefficients, source=factors)
+    allocate (punch%powers, source=powers)
+    if (present(starts)) allocate (punch%starts, source=starts)
+  end function sum_of_powers
 
   subroutine evaluate(self, x, gap, slope, status)
     class(numbered_profile), intent(in) :: self

@@ -42,7 +42,7 @@ module fuge_body_joining
     procedure :: warn_of_opening
   end type fuge_joined_bodies
 
-  !> Gaps that open by less than this part of the largest displacement may open by rounding.
+  !> Gaps that open by less than this fraction of the largest displacement may open by rounding.
   real(dp), parameter :: NO_OPENING = 1.0e-6_dp
 
 contains

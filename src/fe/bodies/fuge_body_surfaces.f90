@@ -5,7 +5,7 @@ module fuge_body_surfaces
   use fuge_elastic_body_type, only: check_pair_numbers, fuge_surface_pair, put_before
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text
-  use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
+  use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_DONE
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   implicit none
   private
@@ -30,11 +30,8 @@ contains
       if (.not. own_info%failed()) then
         call shift(surface_pairs(k)%contact, surface_pairs(k)%contact_body, first, contact, stat)
         if (stat == 0) call shift(surface_pairs(k)%opposite, surface_pairs(k)%opposite_body, first, opposite, stat)
-        if (stat == 0) then
-          call fuge_find_pairs(contact, opposite, surface_pairs(k)%options, pairs, own_info)
-        else
-          call report(own_info, FUGE_ERR_MEMORY, 'no memory for copies of the surfaces')
-        end if
+        call require_memory(stat, 'copies of the surfaces', own_info)
+        if (stat == 0) call fuge_find_pairs(contact, opposite, surface_pairs(k)%options, pairs, own_info)
       end if
       call put_before('pair '//index_text(k)//', contact '//trim(body_name(surface_pairs(k)%contact_body)) &
                       //', opposite '//trim(body_name(surface_pairs(k)%opposite_body))//': ', own_info)

@@ -18,13 +18,13 @@ module fuge_face_sides
 
   public :: check_face_sides
 
-  !> A node lies on one side of a face if it is farther from it than this part of the extent of the face.
+  !> A node lies on one side of a face if its distance from it is above this fraction of the extent of the face.
   real(dp), parameter :: BESIDE = 1.0e-3_dp
 
-  !> The nodes of one element, at most. A face that has more in common with others belongs to a condensed matrix, which
+  !> Most nodes of one element. A face that is coupled with more of them belongs to a condensed matrix, which
   !> couples all with all.
   integer, parameter :: MOST_NODES = 27
-  !> Marks of a face, more than it has nodes.
+  !> Numbers of marks for each face, more than it has nodes.
   integer, parameter :: MOST_MARKS = 16
 
   !> What is coupled with each degree of freedom of the faces: neighbour(first(i)) .. neighbour(first(i + 1) - 1).

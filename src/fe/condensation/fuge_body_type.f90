@@ -79,7 +79,7 @@ contains
     type(fuge_body), intent(in) :: body
     integer, intent(in) :: degrees
     type(fuge_info), intent(inout) :: info
-    integer, allocatable :: place(:)
+    integer, allocatable :: fixed_by(:)
     integer :: k, stat
 
     if (allocated(body%displacement) .and. .not. allocated(body%fixed)) call report(info, FUGE_ERR_SIZE, &
@@ -94,24 +94,24 @@ contains
       end if
       if (info%failed()) return
     end if
-    allocate (place(degrees), stat=stat)
+    allocate (fixed_by(degrees), stat=stat)
     if (stat /= 0) then
       call report(info, FUGE_ERR_MEMORY, 'no memory to check the supports')
       return
     end if
-    place = 0
+    fixed_by = 0
     do k = 1, size(body%fixed)
       associate (dof => body%fixed(k))
         if (dof < 1 .or. dof > degrees) then
           call report(info, FUGE_ERR_DOF, 'fixed('//index_text(k)//') = '//index_text(dof)//' is not one of the ' &
                       //text(degrees)//' degrees of freedom')
           return
-        else if (place(dof) > 0) then
-          call report(info, FUGE_ERR_DOF, 'fixed('//index_text(place(dof))//') and fixed('//index_text(k) &
+        else if (fixed_by(dof) > 0) then
+          call report(info, FUGE_ERR_DOF, 'fixed('//index_text(fixed_by(dof))//') and fixed('//index_text(k) &
                       //') are both degree of freedom '//index_text(dof)//': remove one of them')
           return
         end if
-        place(dof) = k
+        fixed_by(dof) = k
       end associate
     end do
   end subroutine check_supports

@@ -28,7 +28,7 @@ module fuge_condensation
   use fuge_rigid_body_modes, only: check_rigid_modes, choose_pins, find_pin_loads, find_rigid_modes
   use fuge_smallest_eigenvalue, only: find_smallest_eigenvalue, unscale
   use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, &
-    FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
+    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_SIZE, FUGE_WARN_RESIDUAL
   use fuge_stiffness_type, only: fuge_stiffness, stiffness_factor
   implicit none
   private
@@ -167,7 +167,7 @@ contains
     class(fuge_condensed), intent(inout) :: self
     real(dp), intent(in) :: load(:)
     type(fuge_info), intent(out) :: info
-    real(dp), allocatable :: field(:, :), previous(:), previous_displacement(:)
+    real(dp), allocatable :: block(:, :), previous(:), previous_displacement(:)
     integer :: stat
 
     if (.not. allocated(self%factor)) then
@@ -179,15 +179,15 @@ contains
     call move_alloc(self%body%load, previous)
     call move_alloc(self%load_displacement, previous_displacement)
     self%body%load = load
-    allocate (field(size(load), 1), stat=stat)
-    if (stat == 0) call set_load_field(self, field(:, 1), stat)
-    if (stat == 0) call self%factor%solve(field, stat)
+    allocate (block(size(load), 1), stat=stat)
+    if (stat == 0) call set_loads(self, block(:, 1), stat)
+    if (stat == 0) call self%factor%solve(block, stat)
     if (stat == 0) then
-      call add_supports(self, field(:, 1))
-      self%load_displacement = field(:, 1)
+      call add_supports(self, block(:, 1))
+      self%load_displacement = block(:, 1)
       call apply_load(self, info)
     else
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the displacements due to the load')
+      call require_memory(stat, 'the displacements due to the load', info)
     end if
     if (.not. info%failed()) return
     call move_alloc(previous, self%body%load)
@@ -232,29 +232,29 @@ contains
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(inout) :: u(:)
     type(fuge_info), intent(out) :: info
-    real(dp), allocatable :: field(:, :), forces(:)
+    real(dp), allocatable :: block(:, :), forces(:)
     integer :: j, stat
 
     call check_recovery(self, solution, size(u), info)
     if (info%failed()) return
-    allocate (field(size(u), 1), forces(size(u)), stat=stat)
+    allocate (block(size(u), 1), forces(size(u)), stat=stat)
     if (stat == 0) then
       forces = 0.0_dp
       call add_contact_forces(self%body, solution%force, forces)
-      field(:, 1) = merge(0.0_dp, forces, self%constrained)
-      call self%factor%solve(field, stat)
+      block(:, 1) = merge(0.0_dp, forces, self%constrained)
+      call self%factor%solve(block, stat)
     end if
     call require_memory(stat, 'the displacements', info)
     if (stat /= 0) return
-    field(:, 1) = self%load_displacement + field(:, 1)
+    block(:, 1) = self%load_displacement + block(:, 1)
     do j = 1, size(self%rigid_modes, 2)
-      field(:, 1) = field(:, 1) + self%rigid_modes(:, j)*solution%motion(j)
+      block(:, 1) = block(:, 1) + self%rigid_modes(:, j)*solution%motion(j)
     end do
-    if (allocated(self%unresisted_modes)) call remove_motions(self%unresisted_modes, self%scale, field(:, 1), stat)
+    if (allocated(self%unresisted_modes)) call remove_motions(self%unresisted_modes, self%scale, block(:, 1), stat)
     call require_memory(stat, 'the displacements', info)
     if (stat /= 0) return
-    call find_residual(self, solution, field(:, 1), info)
-    if (.not. info%failed()) u = field(:, 1)
+    call find_residual(self, solution, block(:, 1), info)
+    if (.not. info%failed()) u = block(:, 1)
   end subroutine recover
 
   !> Free the stiffness and its factor, by far the largest part of the memory; the public
@@ -423,7 +423,7 @@ contains
     ! Rigid modes computed with the factor are as accurate as the factor.
     if (self%body%floats) self%mode_error = max(self%mode_error, epsilon(quotient)/max(quotient, epsilon(quotient)))
     if (status /= FUGE_DONE) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the factor of the stiffness matrix')
+      call require_memory(status, 'the factor of the stiffness matrix', info)
     else if (.not. quotient > epsilon(quotient)) then
       call report(info, FUGE_ERR_NOT_DEFINITE, 'the stiffness matrix is not positive definite: ' &
                   //trim(what_holds(self, pins))//', and degree of freedom '//index_text(weakest) &
@@ -480,7 +480,7 @@ contains
 
     modes = merge(size(pins), 0, self%body%floats)
     allocate (loads(size(self%constrained), 1 + modes), stat=status)
-    if (status == FUGE_DONE) call set_load_field(self, loads(:, 1), status)
+    if (status == FUGE_DONE) call set_loads(self, loads(:, 1), status)
     if (status /= FUGE_DONE) return
     if (modes > 0) call find_pin_loads(self%stiffness, self%constrained, pins, loads(:, 2:))
     call find_smallest_eigenvalue(self%stiffness, self%factor, merge(0.0_dp, self%scale, self%constrained), loads, &
@@ -495,34 +495,34 @@ contains
     end do
   end subroutine measure
 
-  !> The load and the forces of the displaced supports, `field` (degrees), zero where constrained. `status` is not
+  !> The load and the forces of the displaced supports, `load` (degrees), zero where constrained. `status` is not
   !> FUGE_DONE without memory.
-  subroutine set_load_field(self, field, status)
+  subroutine set_loads(self, load, status)
     type(fuge_condensed), intent(in) :: self
-    real(dp), intent(out) :: field(:)
+    real(dp), intent(out) :: load(:)
     integer, intent(out) :: status
     real(dp), allocatable :: prescribed(:), product(:), magnitude(:)
 
     status = FUGE_DONE
-    field = 0.0_dp
-    if (allocated(self%body%load)) field = self%body%load
+    load = 0.0_dp
+    if (allocated(self%body%load)) load = self%body%load
     if (allocated(self%body%displacement)) then
-      allocate (prescribed(size(field)), product(size(field)), magnitude(size(field)), stat=status)
+      allocate (prescribed(size(load)), product(size(load)), magnitude(size(load)), stat=status)
       if (status /= FUGE_DONE) return
       prescribed = 0.0_dp
       call add_supports(self, prescribed)
       call self%stiffness%multiply(prescribed, product, magnitude)
-      field = field - product
+      load = load - product
     end if
-    where (self%constrained) field = 0.0_dp
-  end subroutine set_load_field
+    where (self%constrained) load = 0.0_dp
+  end subroutine set_loads
 
-  !> Add the displacements of the supports to `field` (degrees).
-  pure subroutine add_supports(self, field)
+  !> Add the displacements of the supports to `u` (degrees).
+  pure subroutine add_supports(self, u)
     type(fuge_condensed), intent(in) :: self
-    real(dp), intent(inout) :: field(:)
+    real(dp), intent(inout) :: u(:)
 
-    if (allocated(self%body%displacement)) field(self%body%fixed) = field(self%body%fixed) + self%body%displacement
+    if (allocated(self%body%displacement)) u(self%body%fixed) = u(self%body%fixed) + self%body%displacement
   end subroutine add_supports
 
   !> R = -H^T Z; keep the modes that the contact points resist.
@@ -539,7 +539,7 @@ contains
                                           displacement_scale(self%body, self%scale), self%mode_error, resisted, &
                                           self%unresisted_modes, stat)
     if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the rigid modes of the contact points')
+      call require_memory(stat, 'the rigid modes of the contact points', info)
     else if (.not. all(resisted)) then
       columns = pack([(j, j=1, size(resisted))], resisted)
       remaining = self%modes(:, columns)

@@ -171,8 +171,8 @@ contains
       points(j) = i
       first(j) = begin(i)
       do k = 1, size(body%dof, 1)
-        associate (place => row(body%dof(k, i)))
-          if (place > 0) x(place, j) = x(place, j) + body%normal(k, i)
+        associate (r => row(body%dof(k, i)))
+          if (r > 0) x(r, j) = x(r, j) + body%normal(k, i)
         end associate
       end do
     end do

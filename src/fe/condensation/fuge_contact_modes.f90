@@ -135,19 +135,19 @@ contains
     end do
   end subroutine check_unresisted
 
-  !> Remove from displacements the part of rigid `modes` (degrees, any number), so that the displacements, multiplied by
-  !> the `scale` (degrees), become as small as they can in the mean of their squares. They then do not depend on where
-  !> the modes were pinned. `stat` is not zero, and `displacement` unchanged, without memory.
+  !> Remove from displacements their projection on rigid `modes` (degrees, any number): multiplied by the `scale`
+  !> (degrees) they become as small as they can in the mean of their squares. They then do not depend on where the
+  !> modes were pinned. `stat` is not zero, and `displacement` unchanged, without memory.
   subroutine remove_motions(modes, scale, displacement, stat)
     real(dp), intent(in) :: modes(:, :), scale(:)
     real(dp), intent(inout) :: displacement(:)
     integer, intent(out) :: stat
-    real(dp), allocatable :: y(:, :), part(:)
+    real(dp), allocatable :: y(:, :), projection(:)
     integer :: k, order(size(modes, 2)), rank
 
     stat = 0
     if (size(modes, 2) < 1) return
-    allocate (y(size(modes, 1), size(modes, 2)), part(size(modes, 1)), stat=stat)
+    allocate (y(size(modes, 1), size(modes, 2)), projection(size(modes, 1)), stat=stat)
     if (stat /= 0) return
     do k = 1, size(modes, 2)
       y(:, k) = modes(:, k)*scale
@@ -155,9 +155,9 @@ contains
     call orthonormalise(y, 0.0_dp, order, rank, stat)
     if (stat /= 0) return
     do k = 1, size(y, 2)
-      part = y(:, k)*dot_product(y(:, k), displacement*scale)
-      call unscale(part, scale)
-      displacement = displacement - part
+      projection = y(:, k)*dot_product(y(:, k), displacement*scale)
+      call unscale(projection, scale)
+      displacement = displacement - projection
     end do
   end subroutine remove_motions
 

@@ -11,41 +11,41 @@ module fuge_contact_normals
 
 contains
 
-  !> Add the forces of all contact points, H f, to the loads `field` (degrees); `force` (n).
-  pure subroutine add_contact_forces(body, force, field)
+  !> Add the forces of all contact points, H f, to the loads `load` (degrees); `force` (n).
+  pure subroutine add_contact_forces(body, force, load)
     type(fuge_body), intent(in) :: body
     real(dp), intent(in) :: force(:)
-    real(dp), intent(inout) :: field(:)
+    real(dp), intent(inout) :: load(:)
     integer :: i
 
     do i = 1, size(force)
-      call add_point_force(body%dof(:, i), body%normal(:, i), force(i), field)
+      call add_point_force(body%dof(:, i), body%normal(:, i), force(i), load)
     end do
   end subroutine add_contact_forces
 
-  !> Add the force of one contact point, a column of H times `force`, to the loads `field`
+  !> Add the force of one contact point, a column of H times `force`, to the loads `load`
   !> (degrees).
-  pure subroutine add_point_force(dof, normal, force, field)
+  pure subroutine add_point_force(dof, normal, force, load)
     integer, intent(in) :: dof(:)
     real(dp), intent(in) :: normal(:), force
-    real(dp), intent(inout) :: field(:)
+    real(dp), intent(inout) :: load(:)
     integer :: k
 
     do k = 1, size(dof)
-      if (dof(k) > 0) field(dof(k)) = field(dof(k)) + normal(k)*force
+      if (dof(k) > 0) load(dof(k)) = load(dof(k)) + normal(k)*force
     end do
   end subroutine add_point_force
 
-  !> Displacement of a contact point, a row of H^T u, in the displacements `field` (degrees).
-  pure function point_displacement(dof, normal, field) result(displacement)
+  !> Displacement of a contact point, a row of H^T u, in the displacements `u` (degrees).
+  pure function point_displacement(dof, normal, u) result(displacement)
     integer, intent(in) :: dof(:)
-    real(dp), intent(in) :: normal(:), field(:)
+    real(dp), intent(in) :: normal(:), u(:)
     real(dp) :: displacement
     integer :: k
 
     displacement = 0.0_dp
     do k = 1, size(dof)
-      if (dof(k) > 0) displacement = displacement + normal(k)*field(dof(k))
+      if (dof(k) > 0) displacement = displacement + normal(k)*u(dof(k))
     end do
   end function point_displacement
 

@@ -1,7 +1,7 @@
 !> One factorisation for a body that floats: its rigid modes, its pins and its factor with them.
 !>
 !> K + D is factorised, where D stiffens the degrees of freedom that are eliminated last: those that contact touches and
-!> some scattered over the body, so many that without them no rigid motion is left. D changes the Schur complement S of
+!> some scattered over the body, enough to resist every rigid motion. D changes the Schur complement S of
 !> those alone, by D itself. The null space of S is that of K at these degrees of freedom, and pins among them only
 !> change the factor of S.
 module fuge_floating_factor
@@ -68,8 +68,8 @@ contains
     marked = .false.
     marked(touched) = .true.
     do k = 1, SCATTERED
-      ! The golden ratio spreads any number of places evenly; k is added for displacements in all directions, since
-      ! such places may all be even.
+      ! The golden ratio spreads any number of indices evenly; k is added for displacements in all directions, since
+      ! such indices may all be even.
       j = int(modulo(real(k, dp)*0.5_dp*(sqrt(5.0_dp) - 1.0_dp), 1.0_dp)*real(size(fixed), dp)) + k
       j = 1 + modulo(j, size(fixed))
       marked(j) = .not. fixed(j)
@@ -112,7 +112,7 @@ contains
     type(fuge_info) :: info
     logical, allocatable :: fixed(:)
     real(dp), allocatable :: modes(:, :)
-    integer, allocatable :: places(:)
+    integer, allocatable :: isolated(:)
     integer :: p, status
 
     found = .false.
@@ -122,26 +122,26 @@ contains
     call dense%set(schur, info)
     if (.not. info%failed()) call find_rigid_modes(dense, fixed, scale(factor%last), modes, info, &
                                                    real(size(scale), dp)/real(p, dp))
-    if (.not. info%failed()) call choose_pins(pin_scale(factor%last), modes, places, info)
+    if (.not. info%failed()) call choose_pins(pin_scale(factor%last), modes, isolated, info)
     if (info%failed()) return
-    call isolate(places, schur)
+    call isolate(isolated, schur)
     call dpotrf('L', p, schur, p, status)
     found = status == 0
     if (.not. found) return
-    call factor%replace_schur_factor(schur, places)
-    pins = factor%last(places)
+    call factor%replace_schur_factor(schur, isolated)
+    pins = factor%last(isolated)
   end subroutine pin
 
   !> Replace rows and columns of a matrix by those of the identity.
-  pure subroutine isolate(places, matrix)
-    integer, intent(in) :: places(:)
+  pure subroutine isolate(isolated, matrix)
+    integer, intent(in) :: isolated(:)
     real(dp), intent(inout) :: matrix(:, :)
     integer :: k
 
-    do k = 1, size(places)
-      matrix(places(k), :) = 0.0_dp
-      matrix(:, places(k)) = 0.0_dp
-      matrix(places(k), places(k)) = 1.0_dp
+    do k = 1, size(isolated)
+      matrix(isolated(k), :) = 0.0_dp
+      matrix(:, isolated(k)) = 0.0_dp
+      matrix(isolated(k), isolated(k)) = 1.0_dp
     end do
   end subroutine isolate
 

@@ -17,25 +17,25 @@ module fuge_smallest_eigenvalue
 contains
 
   !> `quotient`: Rayleigh quotient y^T K y of the softest mode y relative to the magnitude of its
-  !> terms, |y|^T |K| |y|; `place`: the degree of freedom that y moves most.
+  !> terms, |y|^T |K| |y|; `weakest`: the degree of freedom that y moves most.
   !>
   !> If the factor ends with a Schur complement, one step from its softest mode is all: enough to see that K is not
   !> nearly singular, while a small quotient may be several times too large.
   !> `scale` (degrees): square root of the diagonal of K, zero where constrained. `status` is not
   !> zero without memory.
   !> `loads` (degrees, any number), zero where constrained, become displacements: with the first step they cost little.
-  subroutine find_smallest_eigenvalue(stiffness, factor, scale, loads, quotient, place, status)
+  subroutine find_smallest_eigenvalue(stiffness, factor, scale, loads, quotient, weakest, status)
     class(fuge_stiffness), intent(in) :: stiffness
     class(stiffness_factor), intent(in) :: factor
     real(dp), intent(in) :: scale(:)
     real(dp), intent(inout) :: loads(:, :)
     real(dp), intent(out) :: quotient
-    integer, intent(out) :: place, status
+    integer, intent(out) :: weakest, status
     real(dp), allocatable :: block(:, :), y(:), product(:), magnitude(:)
     integer :: j, step
 
     quotient = 1.0_dp
-    place = 0
+    weakest = 0
     allocate (block(size(scale), 1 + size(loads, 2)), y(size(scale)), product(size(scale)), magnitude(size(scale)), &
               stat=status)
     if (status /= FUGE_DONE) return
@@ -56,7 +56,7 @@ contains
     loads = block(:, 2:)
     if (.not. any(scale > 0.0_dp)) return
     y = y/maxval(abs(y))
-    place = maxloc(abs(y), 1)
+    weakest = maxloc(abs(y), 1)
     call unscale(y, scale)
     call stiffness%multiply(y, product, magnitude)
     ! Both are sums over all degrees of freedom, but the constrained ones do not move.

@@ -142,18 +142,18 @@ contains
     if (self%degrees() < 1) return
   end function can_order
 
-  !> `block` (degrees, size(places)): the columns `places` of K.
-  subroutine copy_columns(self, places, block)
+  !> `block` (degrees, size(chosen)): the columns `chosen` of K.
+  subroutine copy_columns(self, chosen, block)
     class(fuge_stiffness), intent(in) :: self
-    integer, intent(in) :: places(:)
+    integer, intent(in) :: chosen(:)
     real(dp), intent(out), contiguous :: block(:, :)
     real(dp), allocatable :: unit(:), magnitude(:)
     integer :: k
 
     allocate (unit(size(block, 1)), magnitude(size(block, 1)))
-    do k = 1, size(places)
+    do k = 1, size(chosen)
       unit = 0.0_dp
-      unit(places(k)) = 1.0_dp
+      unit(chosen(k)) = 1.0_dp
       call self%multiply(unit, block(:, k), magnitude)
     end do
   end subroutine copy_columns

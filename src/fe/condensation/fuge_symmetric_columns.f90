@@ -284,20 +284,20 @@ contains
   end subroutine multiply
 
   !> Columns of K; arguments as in `fuge_stiffness_type`.
-  pure subroutine copy_columns(self, places, block)
+  pure subroutine copy_columns(self, chosen, block)
     class(symmetric_columns), intent(in) :: self
-    integer, intent(in) :: places(:)
+    integer, intent(in) :: chosen(:)
     real(dp), intent(out), contiguous :: block(:, :)
     integer :: i, j, k, p
 
     block = 0.0_dp
     ! Columns are few: a look at all entries for each of them needs no memory.
-    do k = 1, size(places)
+    do k = 1, size(chosen)
       do j = 1, size(block, 1)
         do p = self%upper%column(j), self%upper%column(j + 1) - 1
           i = self%upper%row(p)
-          if (i == places(k)) block(j, k) = self%upper%value(p)
-          if (j == places(k)) block(i, k) = self%upper%value(p)
+          if (i == chosen(k)) block(j, k) = self%upper%value(p)
+          if (j == chosen(k)) block(i, k) = self%upper%value(p)
         end do
       end do
     end do

@@ -1,4 +1,4 @@
-!> Normals of smooth bodies at the corners of one face, from the positions of its nodes alone.
+!> Normals of curved bodies at the corners of one face, from the positions of its nodes alone.
 module fuge_corner_normals
   use fuge_face_geometry, only: cross, face_nodes
   use fuge_face_shapes, only: corner_count, EDGE_3

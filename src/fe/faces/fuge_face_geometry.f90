@@ -17,12 +17,12 @@ module fuge_face_geometry
     integer :: count = 0
     !> Positions of the nodes, (3, count).
     real(dp) :: x(3, MOST_NODES) = 0.0_dp
-    !> Unit normals of the smooth surface that the face stands for, at its nodes, where known, (3, count); else 0.
+    !> Unit normals of the curved surface that the face stands for, at its nodes, where known, (3, count); else 0.
     real(dp) :: normal(3, MOST_NODES) = 0.0_dp
     !> How far the normals at the ends of each side lean along it to the same end, times its length; zero on an arc of a
     !> circle. Of an edge of three nodes the sum of both halves.
     real(dp) :: lean(4) = 0.0_dp
-    !> Is that surface another one than the face itself?
+    !> Does that surface differ from the face itself?
     logical :: bent = .false.
     !> Is it the section of a ring, with the radius along the first axis?
     logical :: revolution = .false.
@@ -59,7 +59,7 @@ contains
     x = matmul(face%x(:, :face%count), values(:face%count))
   end function face_position
 
-  !> Give a face the unit normals of a smooth surface at its nodes, (3, count); where they are across it, it is not
+  !> Give a face the unit normals of a curved surface at its nodes, (3, count); where they are across it, it is not
   !> bent, nor where they look nearly along it. A normal that leans by more than 60 degrees from that of the face at the
   !> node is replaced by the latter.
   pure subroutine bend(face, normal)

@@ -13,7 +13,7 @@ module fuge_face_segments
   public :: clip_convex, face_pieces, polygon_area
 
   !> Most corners of the common part of two quadrangles.
-  integer, parameter, public :: MOST_CORNERS = 8
+  integer, parameter :: MOST_CORNERS = 8
   !> Most pieces of a face.
   integer, parameter, public :: MOST_PIECES = 6
 

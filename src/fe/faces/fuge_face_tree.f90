@@ -3,6 +3,7 @@
 !> Built by halving the faces at the median of their middles along the longest side of their box, O(n log n), two
 !> boxes to a node and at most LEAF faces to a leaf. A query takes O(log n) and the faces that it finds.
 module fuge_face_tree
+  use fuge_growing_arrays, only: make_room
   use fuge_kinds, only: dp
   implicit none
   private
@@ -97,7 +98,7 @@ contains
       end if
       do k = self%first(node), self%last(node)
         if (.not. meets(self%box(:, self%order(k)), start, path, radius)) cycle
-        if (count >= size(found)) call lengthen(found, stat)
+        call make_room(found, count, stat)
         if (stat /= 0) return
         count = count + 1
         found(count) = self%order(k)
@@ -194,17 +195,5 @@ contains
       end if
     end do
   end subroutine part_at_median
-
-  !> Twice the length, with the contents.
-  pure subroutine lengthen(list, stat)
-    integer, allocatable, intent(inout) :: list(:)
-    integer, intent(out) :: stat
-    integer, allocatable :: longer(:)
-
-    allocate (longer(2*size(list) + 16), stat=stat)
-    if (stat /= 0) return
-    longer(:size(list)) = list
-    call move_alloc(longer, list)
-  end subroutine lengthen
 
 end module fuge_face_tree

@@ -1,11 +1,11 @@
 !> Areas that belong to the nodes of a surface.
 module fuge_nodal_areas
+  use fuge_curved_faces, only: curved_point
   use fuge_face_geometry, only: circumference, face_nodes, face_normal, face_position
   use fuge_face_moments, only: mixed_values
   use fuge_face_shapes, only: shape_values, EDGE_3, MOST_NODES, TRIANGLE_3, TRIANGLE_6
   use fuge_gauss_legendre, only: gauss_rule
   use fuge_kinds, only: dp
-  use fuge_smooth_faces, only: smooth_point
   use fuge_surface_mesh_type, only: fuge_surface_mesh, get_face
   implicit none
   private
@@ -19,7 +19,7 @@ contains
 
   !> The area, in the plane the length, of each node, (nodes): the integral of its shape function
   !> mixed with its neighbours' (`middle_share`). Their sum is the area of the surface; zero at nodes that no face
-  !> names. `normals` as in `get_face`: the area is that of the smooth surface. `revolution`: that of rings.
+  !> names. `normals` as in `get_face`: the area is that of the curved surface. `revolution`: that of rings.
   pure subroutine find_nodal_areas(surface, normals, revolution, area)
     type(fuge_surface_mesh), intent(in) :: surface
     real(dp), intent(in) :: normals(:, :, :)
@@ -70,7 +70,7 @@ contains
     real(dp) :: area, normal(3), position(3)
 
     if (face%bent) then
-      call smooth_point(face, place, position, normal)
+      call curved_point(face, place, position, normal)
     else
       normal = face_normal(face, place)
       position = face_position(face, place)

@@ -12,7 +12,7 @@ module fuge_nodal_normals
 
   public :: average_normals, take_normals
 
-  !> A mean of normals shorter than this part of their lengths points nowhere.
+  !> A sum of normals below this fraction of the sum of their lengths has no direction.
   real(dp), parameter :: NO_DIRECTION = 1.0e-8_dp
 
   !> A normal looks outwards if the cosine of its angle with that of one of the faces is above this.

@@ -39,7 +39,7 @@ contains
     end do
   end function face_size
 
-  !> The positions of the nodes of face `f`, and the normals of a smooth surface there if they are known, (3, nodes of a
+  !> The positions of the nodes of face `f`, and the normals of a curved surface there if they are known, (3, nodes of a
   !> face, faces).
   pure function get_face(surface, f, normal) result(face)
     type(fuge_surface_mesh), intent(in) :: surface

@@ -13,12 +13,13 @@ module fuge_common_points
 
   public :: add_found
 
-  !> Rounding error of gaps as part of the reach.
+  !> Rounding error of gaps as a fraction of the reach.
   real(dp), parameter :: GAP_ROUNDING = 1.0e-12_dp
-  !> Rows that differ by less than this are the same.
+  !> Rows whose factors, without unit, differ by less than this are the same.
   real(dp), parameter :: SAME = 1.0e-10_dp
-  !> A degree of freedom with a factor below this part of the largest one does not count when rows are looked up. Near
-  !> 1, so that what is across from a large face is not all found under one of its nodes; not a ratio that meshes have.
+  !> A degree of freedom with a factor below this fraction of the largest one does not count when rows are looked up.
+  !> Near 1, so that what is across from a large face is not all found under one of its nodes; not a ratio that meshes
+  !> have.
   real(dp), parameter :: LARGE = 0.917_dp
 
 contains

@@ -4,6 +4,7 @@ module fuge_contact_pairs_search
   use fuge_common_points, only: add_found
   use fuge_contact_pairs_type, only: check_pair_options, fuge_contact_pairs, fuge_pair_options, &
     FUGE_MORTAR, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
+  use fuge_curved_normals, only: find_curved_normals, mean_of_faces
   use fuge_face_geometry, only: unit
   use fuge_kinds, only: dp
   use fuge_mortar_pairing, only: pair_faces
@@ -14,8 +15,7 @@ module fuge_contact_pairs_search
   use fuge_number_text, only: index_text, text
   use fuge_opposite_faces, only: opposite_faces, prepare_opposite
   use fuge_pair_draft_type, only: pair_draft, start_draft
-  use fuge_smooth_normals, only: find_smooth_normals, mean_of_faces
-  use fuge_status, only: fuge_info, report, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE
   use fuge_surface_checks, only: check_radii, check_surface
   use fuge_surface_mesh_type, only: fuge_surface_mesh
   use fuge_weight_rows, only: copy_row, row_length
@@ -25,9 +25,9 @@ module fuge_contact_pairs_search
   public :: fuge_find_pairs
 
   character(len=*), parameter :: CONTACT_NAME = 'contact surface', OPPOSITE_NAME = 'opposite surface'
-  !> A node of which a smaller part of the area has an opposite has none.
+  !> A node counts as without an opposite if less than this fraction of its area has one.
   real(dp), parameter :: SMALLEST_PART = 1.0e-6_dp
-  !> Weights below this are rounding.
+  !> Weights below this count as zero.
   real(dp), parameter :: NO_WEIGHT = 1.0e-15_dp
 
 contains
@@ -70,11 +70,8 @@ contains
     end if
     call move_surface(contact, way, near_contact, stat)
     if (stat == 0) call move_surface(opposite, way, near_opposite, stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for copies of the surfaces')
-    else
-      call find_near_pairs(near_contact, near_opposite, options, pairs, info)
-    end if
+    call require_memory(stat, 'copies of the surfaces', info)
+    if (stat == 0) call find_near_pairs(near_contact, near_opposite, options, pairs, info)
   end subroutine fuge_find_pairs
 
   !> The same for surfaces near the origin, checked.
@@ -182,19 +179,19 @@ contains
     end if
   end subroutine find_draft
 
-  !> The normals of the smooth surfaces that the meshes stand for; none if faces are taken as they are.
+  !> The normals of the curved surfaces that the meshes stand for; none if faces are taken as they are.
   pure subroutine set_bends(contact, opposite, options, faces, stat)
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     type(opposite_faces), intent(inout) :: faces
     integer, intent(out) :: stat
-    logical :: smooth
+    logical :: curved
 
-    smooth = options%smooth .and. .not. options%tied
-    allocate (faces%own_bend(3, size(contact%face, 1), merge(size(contact%face, 2), 0, smooth)), &
-              faces%bend(3, size(opposite%face, 1), merge(size(opposite%face, 2), 0, smooth)), stat=stat)
-    if (stat == 0 .and. smooth) call find_smooth_normals(contact, options%crease, faces%own_bend, stat)
-    if (stat == 0 .and. smooth) call find_smooth_normals(opposite, options%crease, faces%bend, stat)
+    curved = options%smooth .and. .not. options%tied
+    allocate (faces%own_bend(3, size(contact%face, 1), merge(size(contact%face, 2), 0, curved)), &
+              faces%bend(3, size(opposite%face, 1), merge(size(opposite%face, 2), 0, curved)), stat=stat)
+    if (stat == 0 .and. curved) call find_curved_normals(contact, options%crease, faces%own_bend, stat)
+    if (stat == 0 .and. curved) call find_curved_normals(opposite, options%crease, faces%bend, stat)
   end subroutine set_bends
 
   !> Refuse surfaces none of whose points are opposite to each other.
@@ -290,7 +287,7 @@ contains
   end subroutine fill_point
 
   !> How the gap of node `i` along `direction` depends on the degrees of freedom. `place`, zeros, is left as it was.
-  !> `resultant`: how it depends on a translation of the opposite surface, `direction` but for smooth bodies. The
+  !> `resultant`: how it depends on a translation of the opposite surface, `direction` but for curved bodies. The
   !> arguments are nine, because a row is filled from both surfaces into arrays of the caller.
   pure subroutine fill_row(contact, opposite, draft, i, direction, place, dof, normal, resultant)
     type(fuge_surface_mesh), intent(in) :: contact, opposite

@@ -23,13 +23,13 @@ module fuge_mortar_pairing
 
   public :: pair_faces
 
-  !> A face of which a smaller part than this has an opposite counts as without one.
+  !> A face counts as without an opposite if less than this fraction of it has one.
   real(dp), parameter :: SMALLEST_PART = 1.0e-6_dp
   !> Twice the largest coefficient of the dual functions of a whole face of each kind. Parts that need larger ones are
   !> weighted with functions that are nowhere negative instead: these pass the patch test as well, but the gaps of such
   !> nodes depend on the displacements of their neighbours too.
   real(dp), parameter :: LARGEST(6) = [4.0_dp, 14.0_dp, 6.0_dp, 8.0_dp, 22.0_dp, 30.0_dp]
-  !> Two parts that overlap by more than this part of the face lie in layers, of which the nearer one counts.
+  !> Common parts that overlap by more than this fraction of the face lie in layers, of which the nearest one counts.
   real(dp), parameter :: OVERLAP = 1.0e-6_dp
 
   !> The common part of a face and an opposite one.
@@ -189,20 +189,20 @@ contains
     type(face_nodes) :: face
     real(dp) :: direction(3), frame(3, 2), mass(MOST_NODES, MOST_NODES), area(MOST_NODES), &
       coefficient(MOST_NODES, MOST_NODES), own(MOST_NODES, MOST_NODES), positive(MOST_NODES, MOST_NODES)
-    logical :: dual, smooth
+    logical :: dual, curved
     integer :: k
 
     allocate (moments(size(parts)), stat=stat)
     if (stat /= 0) return
     face = get_face(contact, f, faces%own_bend)
     face%revolution = faces%revolution
-    smooth = face%bent .or. any_bent(opposite, parts%face, faces%bend)
+    curved = face%bent .or. any_bent(opposite, parts%face, faces%bend)
     direction = unit(face_normal(face, middle_place(face%kind)))
     frame = frame_across(direction)
     mass = 0.0_dp
     area = 0.0_dp
     do k = 1, size(parts)
-      call add_moments(face, get_face(opposite, parts(k)%face, faces%bend), direction, frame, smooth, parts(k)%shape, &
+      call add_moments(face, get_face(opposite, parts(k)%face, faces%bend), direction, frame, curved, parts(k)%shape, &
           moments(k))
       mass = mass + moments(k)%mass
       area = area + moments(k)%area
@@ -219,10 +219,10 @@ contains
         area(:n) = matmul(positive(:n, :n), area(:n))
       end if
       draft%weight(contact%face(:n, f)) = draft%weight(contact%face(:n, f)) + area(:n)
-      if (.not. (smooth .and. faces%turning)) call add_own(contact%face(:n, f), own(:n, :n), draft, stat)
+      if (.not. (curved .and. faces%turning)) call add_own(contact%face(:n, f), own(:n, :n), draft, stat)
       do k = 1, size(parts)
         call add_part(contact%face(:n, f), face%normal(:, :n), opposite, parts(k)%face, coefficient(:n, :n), &
-                      positive(:n, :n), smooth, faces%turning, moments(k), draft, stat)
+                      positive(:n, :n), curved, faces%turning, moments(k), draft, stat)
       end do
     end associate
   end subroutine weigh_face
@@ -260,16 +260,16 @@ contains
     end do
   end subroutine add_own
 
-  !> Add the weights of one opposite face to those of the nodes of a face. `along` are the normals of the smooth surface
-  !> at these nodes. Between `smooth` surfaces the gap is along the normal at each place if the normals are `turning`,
+  !> Add the weights of one opposite face to those of the nodes of a face. `along` are the normals of the curved surface
+  !> at these nodes. Between `curved` surfaces the gap is along the normal at each place if the normals are `turning`,
   !> else along one direction for each node. The arguments are eleven, because weights depend on the nodes, on the
   !> faces and on three choices of the method.
-  pure subroutine add_part(nodes, along, opposite, f, coefficient, positive, smooth, turning, moments, draft, stat)
+  pure subroutine add_part(nodes, along, opposite, f, coefficient, positive, curved, turning, moments, draft, stat)
     integer, intent(in) :: nodes(:), f
     real(dp), intent(in) :: along(:, :)
     type(fuge_surface_mesh), intent(in) :: opposite
     real(dp), intent(in) :: coefficient(:, :), positive(:, :)
-    logical, intent(in) :: smooth, turning
+    logical, intent(in) :: curved, turning
     type(face_moments), intent(in) :: moments
     type(pair_draft), intent(inout) :: draft
     integer, intent(inout) :: stat
@@ -279,9 +279,9 @@ contains
 
     weight = matmul(coefficient, moments%cross(:size(nodes), :))
     way = matmul(moments%way(:, :size(nodes)), transpose(coefficient))
-    if (smooth) way = spread(matmul(coefficient, moments%gap(:size(nodes))), 1, 3)*along
+    if (curved) way = spread(matmul(coefficient, moments%gap(:size(nodes))), 1, 3)*along
     axes = 0.0_dp
-    if (smooth .and. turning) then
+    if (curved .and. turning) then
       weight = 0.0_dp
       way = 0.0_dp
       draft%gap(nodes) = draft%gap(nodes) + matmul(coefficient, moments%gap(:size(nodes)))

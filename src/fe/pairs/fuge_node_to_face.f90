@@ -3,12 +3,12 @@
 !> Simple, but forces between nodes cannot balance a uniform pressure if the meshes do not match: this method fails the
 !> patch test (R. Taylor, P. Papadopoulos: On a patch test for contact problems in two dimensions, 1991).
 module fuge_node_to_face
+  use fuge_curved_faces, only: curved_gap, curved_point, curved_weights, find_opposite
   use fuge_face_geometry, only: face_nodes, face_normal, face_position, find_across, unit
   use fuge_face_shapes, only: lies_inside, shape_values, MOST_NODES
   use fuge_kinds, only: dp
   use fuge_opposite_faces, only: opposite_faces, FACING
   use fuge_pair_draft_type, only: pair_draft
-  use fuge_smooth_faces, only: find_opposite, smooth_gap, smooth_point, smooth_weights
   use fuge_surface_mesh_type, only: fuge_surface_mesh, get_face
   use fuge_weight_rows, only: add_weight
   implicit none
@@ -16,7 +16,7 @@ module fuge_node_to_face
 
   public :: pair_nodes
 
-  !> How far beside a face, in its own coordinates, a place still belongs to it.
+  !> A place belongs to a face if it lies beside it by at most this, in the face's own coordinates.
   real(dp), parameter :: BESIDE = 1.0e-8_dp
   !> Steps that turn the line of sight until it is the normal of the opposite face.
   integer, parameter :: TURNS = 10
@@ -44,7 +44,7 @@ contains
         if (draft%weight(i) < 0.0_dp .or. draft%weight(i) > 0.0_dp) cycle
         call pair_node(contact, opposite, faces, f, i, normal(:, i), along_face, near, draft, stat)
         if (stat /= 0) return
-        ! Negative: looked for in vain.
+        ! Negative: a search has found no face.
         if (draft%face(i) == 0) draft%weight(i) = -1.0_dp
       end do
     end do
@@ -130,15 +130,15 @@ contains
     draft%way(:, i) = face_position(face, here) - x
     if (face%bent) then
       if (.not. along_face) call find_opposite(face, x, direction, here)
-      call smooth_point(face, here, there, facing)
+      call curved_point(face, here, there, facing)
       facing = unit(facing)
       if (along_face) direction = -facing
       draft%normal(:, i) = facing
-      draft%way(:, i) = smooth_gap(there - x, direction, facing)*direction
+      draft%way(:, i) = curved_gap(there - x, direction, facing)*direction
     end if
     axes = 0.0_dp
     if (face%bent) then
-      axes = smooth_weights(face, here, direction) - spread(direction, 2, MOST_NODES)*spread(values, 1, 3)
+      axes = curved_weights(face, here, direction) - spread(direction, 2, MOST_NODES)*spread(values, 1, 3)
     end if
     call add_weight(draft%own, i, i, 1.0_dp, NONE, stat)
     do k = 1, face%count

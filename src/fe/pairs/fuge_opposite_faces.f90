@@ -8,7 +8,7 @@ module fuge_opposite_faces
   implicit none
   private
 
-  public :: face_box, face_radius, prepare_opposite, surface_box
+  public :: face_radius, prepare_opposite
 
   !> Two faces look against each other if the cosine between their normals is below this.
   real(dp), parameter, public :: FACING = -0.1_dp
@@ -18,9 +18,9 @@ module fuge_opposite_faces
     !> Unit normals in the middle of the faces, (3, faces).
     real(dp), allocatable :: normal(:, :)
     !> Unit normals at the nodes of the faces of the contact surface and of the opposite one, (3, nodes of a face,
-    !> faces), where the gaps are those of smooth surfaces; else (3, nodes of a face, 0).
+    !> faces), where the gaps are those of curved surfaces; else (3, nodes of a face, 0).
     real(dp), allocatable :: own_bend(:, :, :), bend(:, :, :)
-    !> Do gaps between smooth surfaces follow the normal from place to place, or one direction for each node?
+    !> Do gaps between curved surfaces follow the normal from place to place, or one direction for each node?
     logical :: turning = .false.
     !> Are the faces of both surfaces sections of rings?
     logical :: revolution = .false.

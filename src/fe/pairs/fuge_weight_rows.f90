@@ -2,13 +2,14 @@
 !> direction of its row, which is not known yet, and one along each axis. In a long row a column may have several
 !> entries, which are to be summed: adding takes no longer there than in others.
 module fuge_weight_rows
+  use fuge_growing_arrays, only: make_room
   use fuge_kinds, only: dp
   implicit none
   private
 
   public :: add_weight, copy_row, row_length, start_rows
 
-  !> Entries of a row, the newest ones, among which a column is looked for.
+  !> A column is looked for among this many entries of a row, the newest ones.
   integer, parameter :: LOOKED_AT = 256
 
   type, public :: weight_rows
@@ -50,7 +51,10 @@ contains
       end if
       p = rows%next(p)
     end do
-    if (rows%used >= size(rows%next)) call lengthen(rows, stat)
+    call make_room(rows%column, rows%used, stat)
+    call make_room(rows%weight, rows%used, stat)
+    call make_room(rows%axes, rows%used, stat)
+    call make_room(rows%next, rows%used, stat)
     if (stat /= 0) return
     rows%used = rows%used + 1
     rows%column(rows%used) = column
@@ -95,25 +99,5 @@ contains
       p = rows%next(p)
     end do
   end subroutine copy_row
-
-  pure subroutine lengthen(rows, stat)
-    type(weight_rows), intent(inout) :: rows
-    integer, intent(inout) :: stat
-    integer, allocatable :: column(:), next(:)
-    real(dp), allocatable :: axes(:, :), weight(:)
-    integer :: length
-
-    length = rows%used + rows%used/2 + 16
-    allocate (axes(3, length), column(length), next(length), weight(length), stat=stat)
-    if (stat /= 0) return
-    column(:rows%used) = rows%column(:rows%used)
-    next(:rows%used) = rows%next(:rows%used)
-    weight(:rows%used) = rows%weight(:rows%used)
-    axes(:, :rows%used) = rows%axes(:, :rows%used)
-    call move_alloc(column, rows%column)
-    call move_alloc(next, rows%next)
-    call move_alloc(weight, rows%weight)
-    call move_alloc(axes, rows%axes)
-  end subroutine lengthen
 
 end module fuge_weight_rows

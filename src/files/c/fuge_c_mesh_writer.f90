@@ -9,7 +9,7 @@ module fuge_c_mesh_writer
   use fuge_mesh_writer, only: fuge_write_mesh
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_OPTION, FUGE_ERR_SIZE
-  use fuge_text_fields, only: quoted
+  use fuge_text_numbers, only: quoted
   implicit none
   private
 

@@ -5,10 +5,11 @@
 !> symmetric.
 module fuge_matrix_market_lines
   use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_entry_numbers, only: read_label
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_text_fields, only: after_blanks, describe_field, find_field, lower_case, quoted, read_number, &
-    read_whole, FIELD_NUMBER
+  use fuge_text_columns, only: after_blanks, find_column
+  use fuge_text_numbers, only: describe_text, lower_case, quoted, read_number, read_whole, KIND_NUMBER
   implicit none
   private
 
@@ -77,7 +78,7 @@ contains
     words = ''
     last = 0
     do k = 1, size(words)
-      call find_field(line, last + 1, first, last)
+      call find_column(line, last + 1, first, last)
       words(k) = lower_case(line(first:min(last, first + len(words) - 1)))
     end do
     if (words(1) /= BANNER) then
@@ -111,9 +112,9 @@ contains
     sizes = 0_int64
     last = 0
     do k = 1, numbers
-      call find_field(line, last + 1, first, last)
+      call find_column(line, last + 1, first, last)
       call read_whole(line(first:last), kind, sizes(k))
-      if (kind /= FIELD_NUMBER) exit
+      if (kind /= KIND_NUMBER) exit
     end do
     if (k <= numbers .or. after_blanks(line, last + 1) <= len(line)) then
       if (layout%coordinate) then
@@ -174,22 +175,11 @@ contains
     integer, intent(in) :: most
     integer, intent(out) :: value
     character(len=:), allocatable, intent(inout) :: reason
-    integer(int64) :: number
-    integer :: first, last, kind
+    integer :: first, last
 
-    value = 0
-    call find_field(line, next, first, last)
+    call find_column(line, next, first, last)
     next = last + 1
-    call read_whole(line(first:last), kind, number)
-    if (last < first) then
-      reason = 'the '//name//' is missing'
-    else if (kind /= FIELD_NUMBER) then
-      reason = name//' '//quoted(line(first:last))//' is not a whole number'
-    else if (number < 1_int64 .or. number > int(most, int64)) then
-      reason = name//' '//quoted(line(first:last))//' is outside 1 .. '//text(most)
-    else
-      value = int(number)
-    end if
+    call read_label(line(first:last), name, 1, most, value, reason)
   end subroutine read_index
 
   !> Read the value from position `next` to the end of the line.
@@ -203,19 +193,19 @@ contains
     integer :: first, last, kind
 
     value = 0.0_dp
-    call find_field(line, next, first, last)
+    call find_column(line, next, first, last)
     if (last < first) then
       reason = 'the value is missing'
       return
     end if
     call read_number(line(first:last), kind, value)
-    if (kind /= FIELD_NUMBER) then
-      reason = describe_field(line(first:last), kind)
+    if (kind /= KIND_NUMBER) then
+      reason = describe_text(line(first:last), kind)
     else if (after_blanks(line, last + 1) <= len(line)) then
       reason = 'more than one entry on the line'
     else if (whole) then
       call read_whole(line(first:last), kind, number)
-      if (kind /= FIELD_NUMBER) reason = quoted(line(first:last))//' is not a whole number, although the banner says ' &
+      if (kind /= KIND_NUMBER) reason = quoted(line(first:last))//' is not a whole number, although the banner says ' &
         //'integer'
     end if
   end subroutine read_last

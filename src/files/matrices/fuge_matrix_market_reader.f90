@@ -21,7 +21,7 @@ module fuge_matrix_market_reader
   !> Least number of bytes of an entry, its line feed included.
   integer(int64), parameter :: SHORTEST_ENTRY = 6_int64, SHORTEST_VALUE = 2_int64
 
-  !> Columns, or places of a dense matrix, that need not have entries.
+  !> Columns, or positions of a dense matrix, that need not have entries.
   integer(int64), parameter :: EMPTY_ROOM = 10000000_int64
 
   !> A Matrix Market file that is read entry by entry.
@@ -42,8 +42,8 @@ contains
   !>
   !> `matrix` (rows, columns) is allocated afresh, with zeros where a coordinate file has no
   !> entry, in the unit of the file.
-  !> Errors, `matrix` unchanged: FUGE_ERR_FILE with file, line and reason, also for 10^7 places and more of which most
-  !> rows or columns have no entry; FUGE_ERR_MEMORY.
+  !> Errors, `matrix` unchanged: FUGE_ERR_FILE with file, line and reason, also for 10^7 positions and more of which
+  !> most rows or columns have no entry; FUGE_ERR_MEMORY.
   subroutine fuge_read_matrix(path, matrix, info)
     character(len=*), intent(in) :: path
     real(dp), allocatable, intent(inout) :: matrix(:, :)
@@ -117,7 +117,7 @@ contains
     length = len('the sum of the entries for (, ) is out of range') + len(text(row)) + len(text(column))
   end function reason_length
 
-  !> Why entries of the same place are refused.
+  !> Why entries of the same position are refused.
   pure function overflow_reason(row, column) result(reason)
     integer, intent(in) :: row, column
     character(len=reason_length(row, column)) :: reason
@@ -183,8 +183,8 @@ contains
     call refuse_end(source, info)
   end subroutine check_length
 
-  !> Refuse sizes that need `room` for more places than EMPTY_ROOM and than the entries let expect, `filled`: a header
-  !> alone would decide how much memory is taken.
+  !> Refuse sizes that need `room` for more positions than EMPTY_ROOM and than the entries let expect, `filled`: a
+  !> header alone would decide how much memory is taken.
   pure subroutine check_room(source, room, filled, info)
     type(matrix_file), intent(in) :: source
     real(dp), intent(in) :: room, filled
@@ -229,7 +229,7 @@ contains
     if (exists) call source%file%refuse('more entries than the line with the sizes announces', info)
   end subroutine check_end
 
-  !> Read the next entry: its place from the line or, in an array file, from its number.
+  !> Read the next entry: its position from the line or, in an array file, from its number.
   pure subroutine next_entry(source, info)
     type(matrix_file), intent(inout) :: source
     type(fuge_info), intent(inout) :: info

@@ -87,7 +87,7 @@ contains
     character(len=*), intent(in) :: name
     integer :: number
 
-    number = self%names%place_of(name)
+    number = self%names%find(name)
   end function known
 
   pure subroutine move_set(from, to)
@@ -198,7 +198,7 @@ contains
 
     if ((last - first)/step <= table%count) then
       do k = 0, (last - first)/step
-        if (table%place_of(first + k*step, 0) > 0) call labels%append(first + k*step, status)
+        if (table%find(first + k*step, 0) > 0) call labels%append(first + k*step, status)
       end do
       return
     end if

@@ -5,7 +5,7 @@
 !> S8 and membranes.
 module fuge_element_faces
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge_text_fields, only: read_whole
+  use fuge_text_numbers, only: read_whole
   implicit none
   private
 

@@ -3,14 +3,16 @@ module fuge_input_deck
   use fuge_mesh_type, only: NAME_LENGTH
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info
-  use fuge_text_fields, only: after_blanks, quoted
+  use fuge_text_columns, only: after_blanks
+  use fuge_text_numbers, only: quoted
   use fuge_text_reader, only: text_file
   implicit none
   private
 
   public :: upper_case
 
-  !> Files that include each other, and inclusions in all: files that include others twice double them.
+  !> Most files that include each other in turn, and most inclusions in all: files that include others twice double
+  !> them.
   integer, parameter :: MOST_FILES = 16, MOST_INCLUDED = 10000
   !> Most parameters of a keyword line that are looked at.
   integer, parameter :: MOST_PARAMETERS = 24
@@ -165,7 +167,7 @@ contains
     deck%keyword = ''
     deck%parameters = 0
     associate (file => deck%file(deck%depth))
-      call add_parts(deck, file%content(file%first:file%last), info)
+      call add_items(deck, file%content(file%first:file%last), info)
       do while (deck%continued .and. .not. info%failed())
         call file%advance(exists)
         if (.not. exists) exit
@@ -174,14 +176,14 @@ contains
         if (line_kind == LINE_KEYWORD) then
           call deck%refuse('the keyword line above ends with a comma, and goes on with another keyword', info)
         else
-          call add_parts(deck, file%content(file%first:file%last), info)
+          call add_items(deck, file%content(file%first:file%last), info)
         end if
       end do
     end associate
   end subroutine read_keyword
 
   !> Add the keyword and the parameters on a line.
-  pure subroutine add_parts(deck, line, info)
+  pure subroutine add_items(deck, line, info)
     class(input_deck), intent(inout) :: deck
     character(len=*), intent(in) :: line
     type(fuge_info), intent(inout) :: info
@@ -197,24 +199,24 @@ contains
         if (line(finish:finish) == '"') quote = merge(' ', '"', quote == '"')
         if (line(finish:finish) == ',' .and. quote == ' ') exit
       end do
-      call add_part(deck, line(begin:finish - 1), info)
+      call add_item(deck, line(begin:finish - 1), info)
       deck%continued = finish <= len(line)
       begin = finish + 1
       if (after_blanks(line, begin) > len(line)) exit
       deck%continued = .false.
     end do
-  end subroutine add_parts
+  end subroutine add_items
 
   !> Add the keyword, or a parameter NAME or NAME = VALUE.
-  pure subroutine add_part(deck, part, info)
+  pure subroutine add_item(deck, item, info)
     class(input_deck), intent(inout) :: deck
-    character(len=*), intent(in) :: part
+    character(len=*), intent(in) :: item
     type(fuge_info), intent(inout) :: info
     integer :: equals
 
-    if (after_blanks(part, 1) > len(part)) return
+    if (after_blanks(item, 1) > len(item)) return
     if (deck%keyword == '') then
-      deck%keyword = squeezed(part)
+      deck%keyword = squeezed(item)
       deck%keyword = deck%keyword(2:)
       return
     end if
@@ -222,50 +224,50 @@ contains
       call deck%refuse('more than '//text(MOST_PARAMETERS)//' parameters', info)
       return
     end if
-    equals = index(part, '=')
-    if (equals == 0) equals = len(part) + 1
+    equals = index(item, '=')
+    if (equals == 0) equals = len(item) + 1
     deck%parameters = deck%parameters + 1
-    deck%name(deck%parameters) = squeezed(part(:equals - 1))
-    deck%value(deck%parameters) = unquoted(part(equals + 1:))
-    if (len_trim(unquoted(part(equals + 1:))) > VALUE_LENGTH) &
-      call deck%refuse('the value '//quoted(trim(unquoted(part(equals + 1:))))//' is too long', info)
-  end subroutine add_part
+    deck%name(deck%parameters) = squeezed(item(:equals - 1))
+    deck%value(deck%parameters) = unquoted(item(equals + 1:))
+    if (len_trim(unquoted(item(equals + 1:))) > VALUE_LENGTH) &
+      call deck%refuse('the value '//quoted(trim(unquoted(item(equals + 1:))))//' is too long', info)
+  end subroutine add_item
 
   !> The text in upper case and without blanks, as the programs compare keywords.
-  pure function squeezed(part) result(word)
-    character(len=*), intent(in) :: part
-    character(len=len(part)) :: word
+  pure function squeezed(item) result(word)
+    character(len=*), intent(in) :: item
+    character(len=len(item)) :: word
     integer :: k, used
 
     word = ''
     used = 0
-    do k = 1, len(part)
-      if (after_blanks(part(k:k), 1) > 1) cycle
+    do k = 1, len(item)
+      if (after_blanks(item(k:k), 1) > 1) cycle
       used = used + 1
-      word(used:used) = part(k:k)
+      word(used:used) = item(k:k)
     end do
     word = upper_case(word)
   end function squeezed
 
   !> The text without blanks at its ends and without quotes.
-  pure function unquoted(part) result(value)
-    character(len=*), intent(in) :: part
-    character(len=len(part)) :: value
+  pure function unquoted(item) result(value)
+    character(len=*), intent(in) :: item
+    character(len=len(item)) :: value
     integer :: first, last
 
     value = ''
-    first = after_blanks(part, 1)
-    last = len(part)
+    first = after_blanks(item, 1)
+    last = len(item)
     do while (last > first)
-      if (after_blanks(part(last:last), 1) == 1) exit
+      if (after_blanks(item(last:last), 1) == 1) exit
       last = last - 1
     end do
     if (first > last) return
-    if (last > first .and. part(first:first) == '"' .and. part(last:last) == '"') then
+    if (last > first .and. item(first:first) == '"' .and. item(last:last) == '"') then
       first = first + 1
       last = last - 1
     end if
-    value = part(first:last)
+    value = item(first:last)
   end function unquoted
 
   !> Value of a parameter of the last keyword line, blank if it has none.

@@ -12,7 +12,7 @@ module fuge_mesh_checks
 
 contains
 
-  !> Refuse arrays that do not make a mesh (FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE).
+  !> Refuse arrays that make no mesh (FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE).
   pure subroutine check_mesh(mesh, info)
     type(fuge_mesh), intent(in) :: mesh
     type(fuge_info), intent(inout) :: info

@@ -2,20 +2,22 @@
 module fuge_mesh_draft
   use fuge_draft_sets, only: draft_set, draft_sets, labels_in_range, GENERATED
   use fuge_element_faces, only: is_shell
+  use fuge_growing_arrays, only: make_room
   use fuge_integer_list, only: integer_list
   use fuge_kinds, only: dp
   use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set
   use fuge_name_table, only: name_table
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table
-  use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_FILE
   implicit none
   private
 
   public :: finish_mesh
 
-  !> In place of a number of a face: SNEG and SPOS of shells; the numbers 1 and 2 in the mesh.
+  !> Instead of the number of a face: SNEG and SPOS of shells; the numbers 1 and 2 in the mesh.
   integer, parameter, public :: FACE_SNEG = -1, FACE_SPOS = -2
+
   !> A mesh in labels.
   type, public :: mesh_draft
     type(row_table) :: nodes, elements
@@ -41,21 +43,14 @@ contains
     integer, intent(in) :: label
     real(dp), intent(in) :: position(3)
     logical, intent(out) :: is_new
-    real(dp), allocatable :: longer(:, :)
     integer :: number, nodes
 
     nodes = self%nodes%count
     call self%nodes%number_of(label, 0, number, self%status)
     is_new = number > nodes
     if (self%status /= 0 .or. .not. is_new) return
-    if (.not. allocated(self%position)) then
-      allocate (self%position(3, 1024), stat=self%status)
-    else if (nodes == size(self%position, 2)) then
-      allocate (longer(3, 2*nodes), stat=self%status)
-      if (self%status /= 0) return
-      longer(:, :nodes) = self%position
-      call move_alloc(longer, self%position)
-    end if
+    if (.not. allocated(self%position)) allocate (self%position(3, 0), stat=self%status)
+    call make_room(self%position, nodes, self%status)
     if (self%status == 0) self%position(:, number) = position
   end subroutine add_node
 
@@ -73,7 +68,7 @@ contains
     self%last_file = number
   end subroutine file_number
 
-  !> The mesh with places instead of labels. Errors: FUGE_ERR_FILE with the line of a label that is not defined;
+  !> The mesh with indices instead of labels. Errors: FUGE_ERR_FILE with the line of a label that is not defined;
   !> FUGE_ERR_MEMORY.
   pure subroutine finish_mesh(draft, mesh, info)
     type(mesh_draft), intent(inout) :: draft
@@ -93,7 +88,7 @@ contains
         call finish_surface(draft, k, mesh, info, status)
       end do
     end if
-    if (status /= 0 .and. .not. info%failed()) call report(info, FUGE_ERR_MEMORY, 'no memory for the mesh')
+    if (.not. info%failed()) call require_memory(status, 'the mesh', info)
   end subroutine finish_mesh
 
   pure subroutine finish_nodes(draft, mesh, status)
@@ -127,7 +122,7 @@ contains
       end do
       do e = 1, n
         do k = mesh%first(e), mesh%first(e + 1) - 1
-          mesh%connection(k) = draft%nodes%place_of(draft%connection%item(k), 0)
+          mesh%connection(k) = draft%nodes%find(draft%connection%item(k), 0)
           if (mesh%connection(k) > 0) cycle
           call undefined(draft, draft%element_file%item(e), draft%element_line%item(e), 'node', &
                          draft%connection%item(k), ' of element '//text(mesh%element(e)), info)
@@ -148,7 +143,7 @@ contains
                 //owner//' is not defined in any file')
   end subroutine undefined
 
-  !> Places of the members of each set, each once.
+  !> Indices of the members of each set, each once.
   pure subroutine finish_sets(draft, table, drafts, what, sets, info, status)
     type(mesh_draft), intent(in) :: draft
     type(row_table), intent(in) :: table
@@ -170,7 +165,7 @@ contains
     end do
   end subroutine finish_sets
 
-  !> Places of the members of set k; `owner` is k where a member is in it already. The arguments are nine, because the
+  !> Indices of the members of set k; `owner` is k where a member is in it already. The arguments are nine, because the
   !> work space of all sets is the caller's.
   pure subroutine finish_set(draft, table, from, what, k, owner, set, info, status)
     type(mesh_draft), intent(in) :: draft
@@ -183,20 +178,20 @@ contains
     type(fuge_info), intent(inout) :: info
     integer, intent(inout) :: status
     type(integer_list) :: labels, member
-    integer :: i, j, place
+    integer :: i, j, member_index
 
     set%name = from%name
     do i = 1, from%label%count
       if (from%line%item(i) == GENERATED) then
         call labels_in_range(table, from%label%item(i), from%face%item(i), from%file%item(i), labels, status)
         do j = 1, labels%count
-          call take_member(table%place_of(labels%item(j), 0), k, owner, member, status)
+          call take_member(table%find(labels%item(j), 0), k, owner, member, status)
         end do
         cycle
       end if
-      place = table%place_of(from%label%item(i), 0)
-      if (place > 0) then
-        call take_member(place, k, owner, member, status)
+      member_index = table%find(from%label%item(i), 0)
+      if (member_index > 0) then
+        call take_member(member_index, k, owner, member, status)
       else
         call undefined(draft, from%file%item(i), from%line%item(i), what, from%label%item(i), ' of the set ' &
                        //trim(from%name), info)
@@ -208,17 +203,17 @@ contains
   end subroutine finish_set
 
   !> Add a member to set k unless it is in it.
-  pure subroutine take_member(place, k, owner, member, status)
-    integer, intent(in) :: place, k
+  pure subroutine take_member(member_index, k, owner, member, status)
+    integer, intent(in) :: member_index, k
     integer, intent(inout) :: owner(:), status
     type(integer_list), intent(inout) :: member
 
-    if (owner(place) == k) return
-    owner(place) = k
-    call member%append(place, status)
+    if (owner(member_index) == k) return
+    owner(member_index) = k
+    call member%append(member_index, status)
   end subroutine take_member
 
-  !> Places of the elements of the faces of surface k.
+  !> Indices of the elements of the faces of surface k.
   pure subroutine finish_surface(draft, k, mesh, info, status)
     type(mesh_draft), intent(in) :: draft
     integer, intent(in) :: k
@@ -235,7 +230,7 @@ contains
     do i = 1, n
       associate (from => draft%surfaces%set(k), element => mesh%surface(k)%element(i))
         mesh%surface(k)%face(i) = from%face%item(i)
-        element = draft%elements%place_of(from%label%item(i), 0)
+        element = draft%elements%find(from%label%item(i), 0)
         if (element == 0) then
           call undefined(draft, from%file%item(i), from%line%item(i), 'element', from%label%item(i), &
                          ' of the surface '//trim(from%name), info)

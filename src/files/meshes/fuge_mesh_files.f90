@@ -9,7 +9,7 @@ module fuge_mesh_files
   use fuge_mesh_type, only: fuge_mesh, move_mesh, move_text, NAME_LENGTH, TYPE_LENGTH
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
-  use fuge_text_fields, only: quoted
+  use fuge_text_numbers, only: quoted
   implicit none
   private
 

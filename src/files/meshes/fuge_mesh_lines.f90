@@ -1,7 +1,7 @@
 !> The data lines of an input file of Abaqus or CalculiX: nodes, elements, members of sets, faces of surfaces.
 module fuge_mesh_lines
   use fuge_draft_sets, only: draft_set, draft_sets, labels_in_range, GENERATED
-  use fuge_entry_fields, only: read_label, read_value
+  use fuge_entry_numbers, only: read_label, read_value
   use fuge_input_deck, only: upper_case
   use fuge_integer_list, only: integer_list
   use fuge_kinds, only: dp
@@ -10,7 +10,7 @@ module fuge_mesh_lines
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table
   use fuge_text_columns, only: begin_columns, next_column, SEPARATOR_COMMA
-  use fuge_text_fields, only: quoted
+  use fuge_text_numbers, only: quoted
   implicit none
   private
 
@@ -35,18 +35,6 @@ module fuge_mesh_lines
 
 contains
 
-  !> The next column of a line, line(first:last).
-  pure subroutine next_field(line, k, first, last, separator)
-    character(len=*), intent(in) :: line
-    integer, intent(inout) :: k
-    integer, intent(out) :: first, last, separator
-
-    first = 1
-    last = 0
-    separator = 0
-    if (k <= len(line)) call next_column(line, k, first, last, separator)
-  end subroutine next_field
-
   !> A node: label, x, y, z; coordinates that are missing are 0.
   pure subroutine read_node_line(line, block, draft, reason)
     character(len=*), intent(in) :: line
@@ -58,16 +46,16 @@ contains
     logical :: is_new
 
     k = begin_columns(line)
-    call next_field(line, k, first, last, separator)
+    call next_column(line, k, first, last, separator)
     call read_label(line(first:last), 'node', 1, huge(1), label, reason)
     position = 0.0_dp
     do i = 1, 3
-      call next_field(line, k, first, last, separator)
+      call next_column(line, k, first, last, separator)
       if (first <= last) call read_value(line(first:last), position(i), reason)
     end do
     if (.not. allocated(reason) .and. k <= len(line)) then
       ! Some programs write direction cosines behind the coordinates.
-      call next_field(line, k, first, last, separator)
+      call next_column(line, k, first, last, separator)
       if (first <= last) reason = 'more than three coordinates of node '//text(label)
     end if
     if (allocated(reason)) return
@@ -96,13 +84,13 @@ contains
 
     k = begin_columns(line)
     if (block%missing == 0 .and. .not. block%continues) then
-      call next_field(line, k, first, last, separator)
+      call next_column(line, k, first, last, separator)
       call read_label(line(first:last), 'element', 1, huge(1), label, reason)
       if (.not. allocated(reason)) call begin_element(label, block, draft, reason)
     end if
     separator = SEPARATOR_COMMA
     do while (k <= len(line) .and. .not. allocated(reason))
-      call next_field(line, k, first, last, separator)
+      call next_column(line, k, first, last, separator)
       call read_label(line(first:last), 'node', 1, huge(1), label, reason)
       if (allocated(reason)) return
       if (block%nodes > 0 .and. block%missing == 0) then
@@ -153,7 +141,7 @@ contains
     end if
     k = begin_columns(line)
     do while (k <= len(line) .and. status == 0)
-      call next_field(line, k, first, last, separator)
+      call next_column(line, k, first, last, separator)
       if (is_name(line(first:last))) then
         other = known_set(line(first:last), sets)
         if (other == 0) then
@@ -169,23 +157,23 @@ contains
     end do
   end subroutine read_set_line
 
-  !> Is the field a name, and no number?
-  pure function is_name(field) result(name)
-    character(len=*), intent(in) :: field
+  !> Is the column a name, and no number?
+  pure function is_name(string) result(name)
+    character(len=*), intent(in) :: string
     logical :: name
 
-    name = len(field) > 0
-    if (name) name = verify(field(1:1), '0123456789+-.') > 0
+    name = len(string) > 0
+    if (name) name = verify(string(1:1), '0123456789+-.') > 0
   end function is_name
 
-  pure function known_set(field, sets) result(number)
-    character(len=*), intent(in) :: field
+  pure function known_set(string, sets) result(number)
+    character(len=*), intent(in) :: string
     type(draft_sets), intent(in) :: sets
     integer :: number
     character(len=NAME_LENGTH) :: name
 
-    name = upper_case(field)
-    if (len(field) > 2 .and. field(1:1) == '"') name = upper_case(field(2:len(field) - 1))
+    name = upper_case(string)
+    if (len(string) > 2 .and. string(1:1) == '"') name = upper_case(string(2:len(string) - 1))
     number = sets%known(trim(name))
   end function known_set
 
@@ -222,7 +210,7 @@ contains
     k = begin_columns(line)
     range = 1
     do i = 1, 3
-      call next_field(line, k, first, last, separator)
+      call next_column(line, k, first, last, separator)
       if (first > last .and. i == 3) exit
       call read_label(line(first:last), what, 1, huge(1), range(i), reason)
     end do
@@ -257,7 +245,7 @@ contains
     end associate
     do k = 1, elements%count
       if (draft%status /= 0) return
-      number = draft%elements%place_of(elements%item(k), 0)
+      number = draft%elements%find(elements%item(k), 0)
       if (number == 0) then
         reason = 'element '//text(elements%item(k))//' of the set '//quoted(name)//' is not defined above'
         return
@@ -301,20 +289,20 @@ contains
   end subroutine find_elements
 
   !> The number of a face: S1 to S6, SPOS or SNEG.
-  pure subroutine read_face(field, face, reason)
-    character(len=*), intent(in) :: field
+  pure subroutine read_face(string, face, reason)
+    character(len=*), intent(in) :: string
     integer, intent(out) :: face
     character(len=:), allocatable, intent(inout) :: reason
 
     face = 0
-    if (upper_case(field) == 'SPOS') then
+    if (upper_case(string) == 'SPOS') then
       face = FACE_SPOS
-    else if (upper_case(field) == 'SNEG') then
+    else if (upper_case(string) == 'SNEG') then
       face = FACE_SNEG
-    else if (scan(field(1:1), 'sS') == 0) then
-      reason = quoted(field)//' is no face: S1 to S6, SPOS and SNEG are read'
+    else if (scan(string(1:1), 'sS') == 0) then
+      reason = quoted(string)//' is no face: S1 to S6, SPOS and SNEG are read'
     else
-      call read_label(field(2:), 'face S', 1, 6, face, reason)
+      call read_label(string(2:), 'face S', 1, 6, face, reason)
     end if
   end subroutine read_face
 
@@ -327,8 +315,8 @@ contains
     integer :: face, face_first, face_last, first, k, label, last, other, separator
 
     k = begin_columns(line)
-    call next_field(line, k, first, last, separator)
-    call next_field(line, k, face_first, face_last, separator)
+    call next_column(line, k, first, last, separator)
+    call next_column(line, k, face_first, face_last, separator)
     if (face_first > face_last) then
       reason = 'the face of '//quoted(line(first:last))//' is missing: write its number, as in S1'
     else

@@ -7,7 +7,7 @@ module fuge_mesh_making
   use fuge_mesh_checks, only: check_mesh
   use fuge_mesh_type, only: fuge_mesh, move_mesh
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_ELEMENT, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_ERR_ELEMENT, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -20,8 +20,8 @@ contains
   !> `position` (2 or 3, nodes). `element` (most, elements): the nodes of each element, in the order of Abaqus and
   !> CalculiX; 0 in unused places, at the end. `element_type` (elements), or (1) for all: such as C3D8 or CPE4, in upper
   !> or lower case. Nodes and elements are numbered from 1; there are no sets and no surfaces.
-  !> Errors, `mesh` unchanged: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE; FUGE_ERR_ELEMENT for an element that has not as many
-  !> nodes as its type; FUGE_ERR_MEMORY.
+  !> Errors, `mesh` unchanged: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE; FUGE_ERR_ELEMENT for an element with another
+  !> number of nodes than its type has; FUGE_ERR_MEMORY.
   subroutine fuge_make_mesh(position, element, element_type, mesh, info)
     real(dp), intent(in) :: position(:, :)
     integer, intent(in) :: element(:, :)
@@ -80,11 +80,8 @@ contains
     allocate (mesh%node(nodes), mesh%position(3, nodes), mesh%element(elements), mesh%element_type(elements), &
               mesh%first(elements + 1), mesh%connection(connections), mesh%node_set(0), mesh%element_set(0), &
               mesh%surface(0), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for a mesh of '//text(nodes)//' nodes and '//text(elements) &
-                  //' elements')
-      return
-    end if
+    call require_memory(stat, 'a mesh of '//text(nodes)//' nodes and', elements, 'elements', info)
+    if (stat /= 0) return
     mesh%node = 0
     mesh%element = 0
   end subroutine allocate_mesh
@@ -118,7 +115,8 @@ contains
     end do
   end subroutine fill_elements
 
-  !> Refuse elements that have not as many nodes as their type (FUGE_ERR_ELEMENT); other types are taken as they are.
+  !> Refuse elements with another number of nodes than their type has (FUGE_ERR_ELEMENT); unknown types are taken as
+  !> they are.
   pure subroutine check_nodes(mesh, info)
     type(fuge_mesh), intent(in) :: mesh
     type(fuge_info), intent(inout) :: info
@@ -193,7 +191,7 @@ contains
     sizes = [size(mesh%position, 2, kind=int64), size(mesh%element_type, kind=int64), size(mesh%connection, kind=int64)]
   end function sizes_of
 
-  !> Copy a mesh into one that has used so much of its arrays: nodes, elements, nodes of all elements.
+  !> Copy a mesh behind the entries of another one that are `used`: nodes, elements, nodes of all elements.
   pure subroutine copy_mesh(mesh, used, joined)
     type(fuge_mesh), intent(in) :: mesh
     integer, intent(in) :: used(3)

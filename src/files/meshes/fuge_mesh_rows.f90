@@ -3,15 +3,14 @@
 module fuge_mesh_rows
   use fuge_element_faces, only: split_type, FAMILY_PLANE, FAMILY_SOLID
   use fuge_input_deck, only: upper_case
-  use fuge_kinds, only: dp
   use fuge_mesh_sets, only: fuge_mesh_faces, fuge_mesh_node_set
   use fuge_mesh_type, only: fuge_mesh
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_ELEMENT, FUGE_ERR_MEMORY, &
-    FUGE_ERR_OPTION, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, &
+    FUGE_ERR_SIZE
   use fuge_surface_mesh_type, only: fuge_surface_mesh
-  use fuge_text_fields, only: quoted
+  use fuge_text_numbers, only: quoted
   implicit none
   private
 
@@ -59,10 +58,8 @@ contains
       return
     end if
     allocate (found%node(dimensions, size(mesh%node)), found%dof(dimensions, size(mesh%node)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the nodes of surface '//quoted(name))
-      return
-    end if
+    call require_memory(stat, 'the nodes of surface '//quoted(name), info)
+    if (stat /= 0) return
     found%node = mesh%position(:dimensions, :)
     found%dof = rows(:dimensions, :)
     call move_alloc(found%node, surface%node)
@@ -141,7 +138,7 @@ contains
     integer, allocatable, intent(out) :: rows(:, :)
     integer, intent(out) :: strange
     type(fuge_info), intent(inout) :: info
-    type(row_table) :: places
+    type(row_table) :: known_nodes
     integer :: i, k, number, stat
 
     strange = 0
@@ -156,14 +153,14 @@ contains
     end if
     allocate (rows(DIRECTIONS, size(mesh%node)), stat=stat)
     do i = 1, size(mesh%node)
-      if (stat == 0) call places%number_of(mesh%node(i), 0, number, stat)
+      if (stat == 0) call known_nodes%number_of(mesh%node(i), 0, number, stat)
     end do
     call require_memory(stat, 'the rows of', size(mesh%node), 'nodes', info)
     if (stat /= 0) return
     rows = 0
     do k = 1, size(node)
       if (direction(k) < 1 .or. direction(k) > DIRECTIONS) cycle
-      i = places%place_of(node(k), 0)
+      i = known_nodes%find(node(k), 0)
       if (i == 0 .and. strange == 0) strange = k
       if (i == 0) cycle
       if (rows(direction(k), i) /= 0) then
@@ -175,7 +172,7 @@ contains
     end do
   end subroutine find_rows
 
-  !> Refuse a matrix that is not of this mesh, by the `nodes` that are asked for: places in mesh%node.
+  !> Refuse a matrix that is not of this mesh, by the `nodes` that are asked for: indices in mesh%node.
   pure subroutine check_nodes(mesh, name, nodes, node, rows, strange, info)
     type(fuge_mesh), intent(in) :: mesh
     character(len=*), intent(in) :: name

@@ -5,8 +5,8 @@ module fuge_mesh_sets
   use fuge_kinds, only: dp
   use fuge_mesh_type, only: fuge_mesh, fuge_mesh_set
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_ELEMENT, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_OPTION
-  use fuge_text_fields, only: quoted
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ELEMENT, FUGE_ERR_MESH, FUGE_ERR_OPTION
+  use fuge_text_numbers, only: quoted
   implicit none
   private
 
@@ -19,15 +19,15 @@ module fuge_mesh_sets
 
 contains
 
-  !> The place of a name, in upper or lower case, among `names`; 0 and FUGE_ERR_OPTION with the known ones if it is none
+  !> The index of a name, in upper or lower case, among `names`; 0 and FUGE_ERR_OPTION with the known ones if it is none
   !> of them. `what` they are, for the message.
-  pure subroutine find_name(names, wanted, what, place, info)
+  pure subroutine find_name(names, wanted, what, number, info)
     character(len=*), intent(in) :: names(:), wanted, what
-    integer, intent(out) :: place
+    integer, intent(out) :: number
     type(fuge_info), intent(inout) :: info
 
-    do place = size(names), 1, -1
-      if (names(place) == upper_case(wanted)) return
+    do number = size(names), 1, -1
+      if (names(number) == upper_case(wanted)) return
     end do
     call report(info, FUGE_ERR_OPTION, 'the mesh has no '//what//' '//quoted(trim(wanted))//', it has ' &
                 //trim(listed(names)))
@@ -54,7 +54,7 @@ contains
 
   !> The nodes of a set.
   !>
-  !> `name`: in upper or lower case. `member`, allocated afresh: places of the nodes in mesh%node, in the order of the
+  !> `name`: in upper or lower case. `member`, allocated afresh: indices of the nodes in mesh%node, in the order of the
   !> file, each once.
   !> Errors, `member` unchanged: FUGE_ERR_OPTION if the mesh has no such set, with the names of those it has;
   !> FUGE_ERR_MEMORY.
@@ -67,7 +67,7 @@ contains
     call copy_set(mesh%node_set, name, 'set of nodes', member, info)
   end subroutine fuge_mesh_node_set
 
-  !> The elements of a set, places in mesh%element, as `fuge_mesh_node_set` the nodes.
+  !> The elements of a set, indices in mesh%element, as `fuge_mesh_node_set` the nodes.
   subroutine fuge_mesh_element_set(mesh, name, member, info)
     type(fuge_mesh), intent(in) :: mesh
     character(len=*), intent(in) :: name
@@ -94,17 +94,15 @@ contains
     end if
     if (info%failed()) return
     allocate (copy(size(sets(k)%member)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the '//what//' '//quoted(trim(name)))
-      return
-    end if
+    call require_memory(stat, 'the '//what//' '//quoted(trim(name)), info)
+    if (stat /= 0) return
     copy = sets(k)%member
     call move_alloc(copy, member)
   end subroutine copy_set
 
   !> The nodes of the faces of a surface.
   !>
-  !> `name`: in upper or lower case. `faces` (8, faces), allocated afresh: places of the nodes in mesh%node, corners
+  !> `name`: in upper or lower case. `faces` (8, faces), allocated afresh: indices of the nodes in mesh%node, corners
   !> first, then those on the edges, 0 beyond. Corners of a solid's face follow each other counter-clockwise if it is
   !> seen from outside; an edge of an element of a plane goes counter-clockwise round the element.
   !> Errors, `faces` unchanged: FUGE_ERR_OPTION if the mesh has no such surface, with the names of those it has;
@@ -126,10 +124,8 @@ contains
     end if
     if (info%failed()) return
     allocate (found(MOST_FACE_NODES, size(mesh%surface(surface)%element)), stat=status)
-    if (status /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory for the faces of '//quoted(name))
-      return
-    end if
+    call require_memory(status, 'the faces of '//quoted(name), info)
+    if (status /= 0) return
     found = 0
     do k = 1, size(found, 2)
       element = mesh%surface(surface)%element(k)

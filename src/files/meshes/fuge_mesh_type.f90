@@ -15,7 +15,7 @@ module fuge_mesh_type
   type, public :: fuge_mesh_set
     !> In upper case.
     character(len=NAME_LENGTH) :: name = ''
-    !> Places of its members in `node` or `element` of the mesh, in the order of the file, each once.
+    !> Indices of its members in `node` or `element` of the mesh, in the order of the file, each once.
     integer, allocatable :: member(:)
   end type fuge_mesh_set
 
@@ -23,7 +23,7 @@ module fuge_mesh_type
   type, public :: fuge_mesh_surface
     !> In upper case.
     character(len=NAME_LENGTH) :: name = ''
-    !> The element of each face: its place in `element` of the mesh.
+    !> The element of each face: its index in `element` of the mesh.
     integer, allocatable :: element(:)
     !> The number n, of Sn, of each face; of a shell 1 is SNEG and 2 SPOS.
     integer, allocatable :: face(:)
@@ -51,7 +51,7 @@ module fuge_mesh_type
     character(len=TYPE_LENGTH), allocatable :: element_type(:)
     !> Where the nodes of each element begin in `connection`, one more than elements.
     integer, allocatable :: first(:)
-    !> The nodes of element k: `connection`(`first`(k) : `first`(k + 1) - 1), their places in `node`.
+    !> The nodes of element k: `connection`(`first`(k) : `first`(k + 1) - 1), their indices in `node`.
     integer, allocatable :: connection(:)
     !> Sets of nodes, in the order in which the file first names them.
     type(fuge_mesh_set), allocatable :: node_set(:)

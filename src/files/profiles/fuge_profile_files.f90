@@ -1,5 +1,6 @@
 !> Profiles, heights z over positions x, from text files.
 module fuge_profile_files
+  use fuge_growing_arrays, only: resize
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_profile_lines, only: read_point, LINE_EMPTY, LINE_POINT, LINE_WORDS
@@ -37,25 +38,16 @@ contains
       call read_points(file, read_x, read_z, points, info)
       if (info%failed()) return
       deallocate (file%content)
-      call copy_points(read_x(:points), read_z(:points), x, z, status)
+      call resize(read_x, points, status)
+      call resize(read_z, points, status)
     end if
-    if (status /= 0) call report(info, FUGE_ERR_MEMORY, file%name//': no memory for '//text(points)//' points')
+    if (status == 0) then
+      call move_alloc(read_x, x)
+      call move_alloc(read_z, z)
+    else
+      call report(info, FUGE_ERR_MEMORY, file%name//': no memory for '//text(points)//' points')
+    end if
   end subroutine fuge_read_profile
-
-  !> Copy the points to the arrays of the caller, which are unchanged without memory.
-  subroutine copy_points(read_x, read_z, x, z, status)
-    real(dp), intent(in) :: read_x(:), read_z(:)
-    real(dp), allocatable, intent(inout) :: x(:), z(:)
-    integer, intent(out) :: status
-    real(dp), allocatable :: new_x(:), new_z(:)
-
-    allocate (new_x(size(read_x)), new_z(size(read_z)), stat=status)
-    if (status /= 0) return
-    new_x = read_x
-    new_z = read_z
-    call move_alloc(new_x, x)
-    call move_alloc(new_z, z)
-  end subroutine copy_points
 
   !> Read all lines; on return `x` and `z` hold the first `points` points.
   pure subroutine read_points(file, x, z, points, info)

@@ -19,7 +19,7 @@ module fuge_profile_sampling
   !> Value of `form`: subtract the least-squares line.
   integer, parameter, public :: FUGE_LEVEL_LINE = 1
 
-  !> A point that is outside by less than this fraction of the profile's length counts as its end.
+  !> A point outside the profile by less than this fraction of its length counts as its end.
   real(dp), parameter :: END_TOLERANCE = 1.0e-12_dp
 
 contains
@@ -129,13 +129,13 @@ contains
   pure subroutine subtract_slope(x, z)
     real(dp), intent(in) :: x(:)
     real(dp), intent(inout) :: z(:)
-    real(dp) :: place(size(x)), weight(size(x))
+    real(dp) :: abscissa(size(x)), weight(size(x))
 
     ! Dimensionless, so that no square overflows.
-    place = (x - x(1))/(x(size(x)) - x(1))
+    abscissa = (x - x(1))/(x(size(x)) - x(1))
     weight = weights(x)
-    place = place - dot_product(weight, place)
-    z = z - place*(dot_product(weight, place*z)/dot_product(weight, place**2))
+    abscissa = abscissa - dot_product(weight, abscissa)
+    z = z - abscissa*(dot_product(weight, abscissa*z)/dot_product(weight, abscissa**2))
   end subroutine subtract_slope
 
   !> Refuse a profile with fewer than two points, values that are not finite or out of range, or x

@@ -6,7 +6,7 @@ module fuge_field_files
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_GRID, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_GRID, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
   use fuge_text_writer, only: text_output
   use fuge_vtk_fields, only: begin_values, begin_vtk, check_fields, end_vtk, number_pair, put_array, put_field_list, &
     put_fields
@@ -75,8 +75,7 @@ contains
                                                text(nx)//' x '//text(ny)//' x '//text(size(depth)), names, fields, info)
     if (info%failed()) return
     allocate (x(nx, 1), y(ny, 1), stat=stat)
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the coordinates of '//text(nx)//' x '//text(ny) &
-                               //' points')
+    call require_memory(stat, 'the coordinates of '//text(nx)//' x', ny, 'points', info)
     if (.not. info%failed()) call file%create(path, info)
     if (info%failed()) return
     x(:, 1) = first(1) + spacing_x*[(real(k, dp), k=0, nx - 1)]
@@ -150,7 +149,7 @@ contains
     end do
   end subroutine check_depths
 
-  !> Refuse numbers of cells, sizes of cells and an origin that cannot be.
+  !> Refuse impossible numbers and sizes of cells, and an origin that is not finite or out of range.
   pure subroutine check_grid(nx, ny, spacing, origin, info)
     integer, intent(in) :: nx, ny
     real(dp), intent(in) :: spacing(2), origin(2)

@@ -48,7 +48,7 @@ contains
     call file%put('</'//section//'>')
   end subroutine put_field_list
 
-  !> Write where an array is, which has `components` values (1 unless given) at each of so many `points`; `offset` moves
+  !> Write where an array is, which has `components` values (1 unless given) at each of `points` points; `offset` moves
   !> beyond them. `type`: of the numbers, Float64 unless given, Int64 or UInt8.
   subroutine put_array(file, name, points, offset, components, type)
     type(text_output), intent(inout) :: file
@@ -147,27 +147,27 @@ contains
   end function byte_order
 
   !> Two numbers with all their digits.
-  function number_pair(numbers) result(field)
+  function number_pair(numbers) result(string)
     real(dp), intent(in) :: numbers(2)
-    character(len=49) :: field
+    character(len=49) :: string
 
     ! gfortran's run-time library keeps internal units in the list through which `open` walks.
     call lock(LOCK_FILES)
-    write (field, '(es24.16e3,1x,es24.16e3)') numbers
+    write (string, '(es24.16e3,1x,es24.16e3)') numbers
     call unlock(LOCK_FILES)
   end function number_pair
 
-  !> A whole number, beyond the default integers perhaps.
-  function whole(number) result(field)
+  !> A whole number, which may be beyond the default integers.
+  function whole(number) result(string)
     integer(int64), intent(in) :: number
-    character(len=20) :: field
+    character(len=20) :: string
 
     call lock(LOCK_FILES)
-    write (field, '(i0)') number
+    write (string, '(i0)') number
     call unlock(LOCK_FILES)
   end function whole
 
-  !> Refuse fields that have not `points` values, `shape_text` in words (FUGE_ERR_SIZE), NaN and infinity
+  !> Refuse fields of another number of values than `points`, `shape_text` in words (FUGE_ERR_SIZE), NaN and infinity
   !> (FUGE_ERR_NOT_FINITE), and names that are blank, repeated, too long or not printable (FUGE_ERR_OPTION).
   pure subroutine check_fields(points, shape_text, names, fields, info)
     integer(int64), intent(in) :: points

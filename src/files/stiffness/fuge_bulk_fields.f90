@@ -1,7 +1,7 @@
 !> The fields of a line of Nastran's bulk data: eight of eight columns, four of sixteen (a * in the first field), or
 !> free between commas.
 module fuge_bulk_fields
-  use fuge_text_fields, only: lower_case
+  use fuge_text_numbers, only: lower_case
   implicit none
   private
 

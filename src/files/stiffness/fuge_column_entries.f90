@@ -4,13 +4,14 @@
 !> (*MATRIX OUTPUT, FORMAT=COORDINATE). Five, node, direction, node, direction and value: Abaqus
 !> (FORMAT=MATRIX INPUT, which *MATRIX INPUT reads: the lower or the upper triangle, or both).
 module fuge_column_entries
-  use fuge_entry_fields, only: is_comment, line_fields, read_label, read_value, split_line
+  use fuge_entry_numbers, only: is_comment, read_label, read_value
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_row_table, only: LARGEST_DIRECTION
   use fuge_status, only: fuge_info
   use fuge_stiffness_entries, only: no_memory, stiffness_entries
-  use fuge_text_fields, only: lower_case, quoted
+  use fuge_text_columns, only: line_columns, split_columns
+  use fuge_text_numbers, only: lower_case, quoted
   use fuge_text_reader, only: text_file
   implicit none
   private
@@ -49,17 +50,17 @@ contains
     integer, intent(inout) :: columns, status
     type(stiffness_entries), intent(inout) :: entries
     character(len=:), allocatable, intent(out) :: reason
-    type(line_fields) :: fields
+    type(line_columns) :: found
 
     if (is_comment(line)) return
     if (is_matrix_keyword(line)) return
-    call split_line(line, fields)
-    call check_columns(line, fields%count, columns, reason)
+    call split_columns(line, found)
+    call check_columns(line, found%count, columns, reason)
     if (allocated(reason)) return
     if (columns == 3) then
-      call read_numbered(line, fields, number, entries, status, reason)
+      call read_numbered(line, found, number, entries, status, reason)
     else
-      call read_named(line, fields, number, entries, status, reason)
+      call read_named(line, found, number, entries, status, reason)
     end if
   end subroutine read_line
 
@@ -93,18 +94,18 @@ contains
     end if
   end subroutine check_columns
 
-  pure function count_of(fields) result(words)
-    integer, intent(in) :: fields
+  pure function count_of(columns) result(words)
+    integer, intent(in) :: columns
     character(len=12) :: words
 
-    words = text(fields)
-    if (fields > 5) words = '6 or more'
+    words = text(columns)
+    if (columns > 5) words = '6 or more'
   end function count_of
 
   !> Read row, column and value.
-  pure subroutine read_numbered(line, fields, number, entries, status, reason)
+  pure subroutine read_numbered(line, found, number, entries, status, reason)
     character(len=*), intent(in) :: line
-    type(line_fields), intent(in) :: fields
+    type(line_columns), intent(in) :: found
     integer, intent(in) :: number
     type(stiffness_entries), intent(inout) :: entries
     integer, intent(inout) :: status
@@ -114,37 +115,37 @@ contains
 
     most = huge(1) - 1
     if (entries%rows > 0) most = entries%rows
-    call read_label(line(fields%first(1):fields%last(1)), 'row', 1, most, row, reason)
-    call read_label(line(fields%first(2):fields%last(2)), 'column', 1, most, column, reason)
-    call read_value(line(fields%first(3):fields%last(3)), value, reason)
+    call read_label(line(found%first(1):found%last(1)), 'row', 1, most, row, reason)
+    call read_label(line(found%first(2):found%last(2)), 'column', 1, most, column, reason)
+    call read_value(line(found%first(3):found%last(3)), value, reason)
     if (.not. allocated(reason)) call entries%append(row, column, value, number, status)
   end subroutine read_numbered
 
   !> Read the names of row and column, and the value.
-  pure subroutine read_named(line, fields, number, entries, status, reason)
+  pure subroutine read_named(line, found, number, entries, status, reason)
     character(len=*), intent(in) :: line
-    type(line_fields), intent(in) :: fields
+    type(line_columns), intent(in) :: found
     integer, intent(in) :: number
     type(stiffness_entries), intent(inout) :: entries
     integer, intent(inout) :: status
     character(len=:), allocatable, intent(inout) :: reason
-    integer :: node(2), direction(2), place(2)
+    integer :: node(2), direction(2), number_of_name(2)
     integer :: k
     real(dp) :: value
 
     do k = 1, 2
-      associate (first => fields%first(2*k - 1:2*k), last => fields%last(2*k - 1:2*k))
+      associate (first => found%first(2*k - 1:2*k), last => found%last(2*k - 1:2*k))
         ! Abaqus numbers its internal nodes below 0.
         call read_label(line(first(1):last(1)), 'node', -huge(1), huge(1), node(k), reason)
         call read_label(line(first(2):last(2)), 'direction', 0, LARGEST_DIRECTION, direction(k), reason)
       end associate
     end do
-    call read_value(line(fields%first(5):fields%last(5)), value, reason)
+    call read_value(line(found%first(5):found%last(5)), value, reason)
     if (allocated(reason)) return
     do k = 1, 2
-      if (status == 0) call entries%names%number_of(node(k), direction(k), place(k), status)
+      if (status == 0) call entries%names%number_of(node(k), direction(k), number_of_name(k), status)
     end do
-    if (status == 0) call entries%append(place(1), place(2), value, number, status)
+    if (status == 0) call entries%append(number_of_name(1), number_of_name(2), value, number, status)
   end subroutine read_named
 
 end module fuge_column_entries

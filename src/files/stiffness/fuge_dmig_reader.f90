@@ -5,12 +5,12 @@
 !> imaginary part. Four fields never part at the end of a line.
 module fuge_dmig_reader
   use fuge_bulk_fields, only: bulk_fields, split_bulk_line
-  use fuge_entry_fields, only: read_label, read_value
+  use fuge_entry_numbers, only: read_label, read_value
   use fuge_kinds, only: dp
   use fuge_row_table, only: LARGEST_DIRECTION
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE
   use fuge_stiffness_entries, only: no_memory, stiffness_entries
-  use fuge_text_fields, only: lower_case, quoted
+  use fuge_text_numbers, only: lower_case, quoted
   use fuge_text_reader, only: text_file
   implicit none
   private

@@ -7,12 +7,13 @@
 !> in double precision, TYPE = 2. The values end where a line without a decimal point begins, and their number is held
 !> against L or NW, which some programs give in values.
 module fuge_op4_reader
-  use fuge_entry_fields, only: line_fields, read_label, read_value, split_line
+  use fuge_entry_numbers, only: read_label, read_value
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE
   use fuge_stiffness_entries, only: no_memory, stiffness_entries
-  use fuge_text_fields, only: lower_case, quoted
+  use fuge_text_columns, only: line_columns, split_columns
+  use fuge_text_numbers, only: lower_case, quoted
   use fuge_text_reader, only: text_file
   implicit none
   private
@@ -27,7 +28,7 @@ module fuge_op4_reader
   type :: op4_state
     character(len=8) :: name = ''
     integer :: rows = 0, columns = 0
-    !> Words of a value, and width of its field.
+    !> Words of a value, and its width in characters.
     integer :: words = 1, width = USUAL_WIDTH
     !> It is the matrix of the caller, so that its entries are kept.
     logical :: kept = .false.
@@ -57,17 +58,17 @@ contains
                                                   'abcdefghijklmnopqrstuvwxyz') == 0
   end function is_op4_header
 
-  !> The whole number in field k of eight columns.
+  !> The whole number in the k-th eight characters of a line.
   pure subroutine read_fixed(line, k, number, reason)
     character(len=*), intent(in) :: line
     integer, intent(in) :: k
     integer, intent(out) :: number
     character(len=:), allocatable, intent(inout) :: reason
 
-    character(len=8) :: field
+    character(len=8) :: string
 
-    field = adjustl(line(8*k - 7:8*k))
-    call read_label(trim(field), 'number', -huge(1), huge(1), number, reason)
+    string = adjustl(line(8*k - 7:8*k))
+    call read_label(trim(string), 'number', -huge(1), huge(1), number, reason)
   end subroutine read_fixed
 
   !> Read all entries of the matrix called `name`, or of the only one if it is blank. Zeros are left out.
@@ -223,21 +224,21 @@ contains
     character(len=*), intent(in) :: line
     type(op4_state), intent(inout) :: state
     character(len=:), allocatable, intent(inout) :: reason
-    type(line_fields) :: fields
+    type(line_columns) :: found
     integer :: k, number(3)
 
-    call split_line(line, fields)
-    if (fields%count < 1 .or. fields%count > 3) then
+    call split_columns(line, found)
+    if (found%count < 1 .or. found%count > 3) then
       reason = 'values with a decimal point, or the header of a column or of a string are needed here'
       return
     end if
     number = 0
-    do k = 1, fields%count
-      call read_label(line(fields%first(k):fields%last(k)), 'number', 0, huge(1), number(k), reason)
+    do k = 1, found%count
+      call read_label(line(found%first(k):found%last(k)), 'number', 0, huge(1), number(k), reason)
     end do
     if (allocated(reason)) return
     state%found = 0
-    select case (fields%count)
+    select case (found%count)
     case (1)
       state%announced = max(number(1)/65536 - 1, 0)
       state%row = modulo(number(1), 65536)
@@ -273,7 +274,7 @@ contains
     if (state%row > state%rows) reason = 'row '//text(state%row)//' is outside 1 .. '//text(state%rows)
   end subroutine begin_column
 
-  !> The values of a line, in fields of the width that the header gives.
+  !> The values of a line, each of the width that the header gives.
   pure subroutine read_values(line, number, state, entries, reason)
     character(len=*), intent(in) :: line
     integer, intent(in) :: number
@@ -305,14 +306,14 @@ contains
   end subroutine read_values
 
   !> A value with blanks before or after it.
-  pure subroutine read_padded(field, value, reason)
-    character(len=*), intent(in) :: field
+  pure subroutine read_padded(string, value, reason)
+    character(len=*), intent(in) :: string
     real(dp), intent(out) :: value
     character(len=:), allocatable, intent(inout) :: reason
     integer :: first
 
-    first = max(verify(field, ' '), 1)
-    call read_value(field(first:len_trim(field)), value, reason)
+    first = max(verify(string, ' '), 1)
+    call read_value(string(first:len_trim(string)), value, reason)
   end subroutine read_padded
 
 end module fuge_op4_reader

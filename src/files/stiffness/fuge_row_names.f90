@@ -1,10 +1,11 @@
 !> A file that names the rows of a matrix: a line node.direction for each row, as CalculiX writes it (.dof).
 module fuge_row_names
-  use fuge_entry_fields, only: is_comment, line_fields, read_label, split_line
+  use fuge_entry_numbers, only: is_comment, read_label
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table, LARGEST_DIRECTION
   use fuge_status, only: fuge_info
   use fuge_stiffness_entries, only: no_memory
+  use fuge_text_columns, only: line_columns, split_columns
   use fuge_text_reader, only: text_file
   implicit none
   private
@@ -66,20 +67,20 @@ contains
     character(len=*), intent(in) :: line
     integer, intent(out) :: node, direction
     character(len=:), allocatable, intent(out) :: reason
-    type(line_fields) :: fields
+    type(line_columns) :: columns
     integer :: dot
 
     node = 0
     direction = 0
-    call split_line(line, fields)
-    dot = index(line(fields%first(1):fields%last(1)), '.')
-    if (fields%count == 1 .and. dot > 0) then
-      dot = dot + fields%first(1) - 1
-      call read_label(line(fields%first(1):dot - 1), 'node', -huge(1), huge(1), node, reason)
-      call read_label(line(dot + 1:fields%last(1)), 'direction', 0, LARGEST_DIRECTION, direction, reason)
-    else if (fields%count == 2) then
-      call read_label(line(fields%first(1):fields%last(1)), 'node', -huge(1), huge(1), node, reason)
-      call read_label(line(fields%first(2):fields%last(2)), 'direction', 0, LARGEST_DIRECTION, direction, reason)
+    call split_columns(line, columns)
+    dot = index(line(columns%first(1):columns%last(1)), '.')
+    if (columns%count == 1 .and. dot > 0) then
+      dot = dot + columns%first(1) - 1
+      call read_label(line(columns%first(1):dot - 1), 'node', -huge(1), huge(1), node, reason)
+      call read_label(line(dot + 1:columns%last(1)), 'direction', 0, LARGEST_DIRECTION, direction, reason)
+    else if (columns%count == 2) then
+      call read_label(line(columns%first(1):columns%last(1)), 'node', -huge(1), huge(1), node, reason)
+      call read_label(line(columns%first(2):columns%last(2)), 'direction', 0, LARGEST_DIRECTION, direction, reason)
     else
       reason = 'the node and the direction of one row are needed here, like 17.3'
     end if

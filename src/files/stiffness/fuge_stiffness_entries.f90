@@ -1,10 +1,11 @@
 !> The entries of a stiffness matrix as they come from a file, and the compressed columns that are made from them.
 !>
-!> A file may hold one triangle, or entries on both sides of the diagonal so that each pair of places has one, or the
+!> A file may hold one triangle, or entries on both sides of the diagonal so that each pair of positions has one, or the
 !> whole matrix. The matrix that is returned has both triangles.
 module fuge_stiffness_entries
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_compressed_columns, only: compressed_columns, matrix_triplets, order_triplets
+  use fuge_growing_arrays, only: make_room
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table
@@ -14,9 +15,6 @@ module fuge_stiffness_entries
   private
 
   public :: make_columns, no_memory
-
-  !> Number of entries at first.
-  integer, parameter :: FIRST_ENTRIES = 4096
 
   !> Entries in the order of the file.
   type, public :: stiffness_entries
@@ -33,7 +31,6 @@ module fuge_stiffness_entries
     logical :: whole = .false.
   contains
     procedure :: append
-    procedure, private :: grow
   end type stiffness_entries
 
 contains
@@ -44,12 +41,12 @@ contains
     integer, intent(in) :: row, column, line
     real(dp), intent(in) :: value
     integer, intent(out) :: status
-    logical :: full
 
     status = 0
-    full = .not. allocated(self%row)
-    if (.not. full) full = self%count == size(self%row)
-    if (full) call self%grow(status)
+    call make_room(self%row, self%count, status)
+    call make_room(self%column, self%count, status)
+    call make_room(self%value, self%count, status)
+    call make_room(self%line, self%count, status)
     if (status /= 0) return
     self%count = self%count + 1
     self%row(self%count) = row
@@ -57,33 +54,6 @@ contains
     self%value(self%count) = value
     self%line(self%count) = line
   end subroutine append
-
-  !> Double the memory.
-  pure subroutine grow(self, status)
-    class(stiffness_entries), intent(inout) :: self
-    integer, intent(out) :: status
-    integer, allocatable :: row(:), column(:), line(:)
-    real(dp), allocatable :: value(:)
-    integer :: n, room
-
-    n = self%count
-    room = FIRST_ENTRIES
-    status = 1
-    if (n > shiftr(huge(1), 1)) return
-    if (n > 0) room = 2*n
-    allocate (row(room), column(room), value(room), line(room), stat=status)
-    if (status /= 0) return
-    if (n > 0) then
-      row(:n) = self%row(:n)
-      column(:n) = self%column(:n)
-      value(:n) = self%value(:n)
-      line(:n) = self%line(:n)
-    end if
-    call move_alloc(row, self%row)
-    call move_alloc(column, self%column)
-    call move_alloc(value, self%value)
-    call move_alloc(line, self%line)
-  end subroutine grow
 
   !> Report that there is no memory for the entries of a file (FUGE_ERR_MEMORY).
   pure subroutine no_memory(file, info)
@@ -95,7 +65,7 @@ contains
 
   !> Sort the entries into compressed columns of both triangles, rows ascending, and find the node and the direction of
   !> each row, 0 where no name is known. `entries` is used up.
-  !> Errors: FUGE_ERR_FILE with the line of a place that is given twice, or if there are fewer entries than rows;
+  !> Errors: FUGE_ERR_FILE with the line of a position that is given twice, or if there are fewer entries than rows;
   !> FUGE_ERR_MEMORY.
   pure subroutine make_columns(file, entries, matrix, node, direction, info)
     type(text_file), intent(inout) :: file
@@ -133,7 +103,7 @@ contains
     integer, intent(out) :: rows
     integer, allocatable, intent(inout) :: node(:), direction(:)
     type(fuge_info), intent(inout) :: info
-    integer, allocatable :: place(:)
+    integer, allocatable :: new_row(:)
     integer :: n, status
 
     n = entries%count
@@ -143,10 +113,10 @@ contains
       call report(info, FUGE_ERR_FILE, file%name//' has no entry of a matrix')
     else if (entries%names%count > 0) then
       rows = entries%names%count
-      call entries%names%sort(place, node, direction, status)
+      call entries%names%sort(new_row, node, direction, status)
       if (status == 0) then
-        entries%row(:n) = place(entries%row(:n))
-        entries%column(:n) = place(entries%column(:n))
+        entries%row(:n) = new_row(entries%row(:n))
+        entries%column(:n) = new_row(entries%column(:n))
       end if
     else if (rows == 0) then
       rows = max(maxval(entries%row(:n)), maxval(entries%column(:n)))
@@ -188,7 +158,7 @@ contains
     end do
   end subroutine fold
 
-  !> Are two folded entries of one pair of places, or of one place of the diagonal?
+  !> Are two folded entries of one pair of positions, or of one position of the diagonal?
   pure function same_pair(lower, a, b) result(same)
     type(matrix_triplets), intent(in) :: lower
     integer, intent(in) :: a, b
@@ -198,7 +168,7 @@ contains
     if (same) same = lower%column(a) == lower%column(b)
   end function same_pair
 
-  !> The first entry in the file whose place another one had before; 0 if there is none.
+  !> The first entry in the file whose position another one had before; 0 if there is none.
   pure subroutine find_repeated(lower, above, order, line, repeated)
     type(matrix_triplets), intent(in) :: lower
     logical, intent(in) :: above(:)
@@ -229,7 +199,7 @@ contains
     if (node(k) /= 0) name = 'node '//text(node(k))//', direction '//text(direction(k))
   end function row_name
 
-  !> Why an entry is refused whose place another one had before.
+  !> Why an entry is refused whose position another one had before.
   pure function repetition(i, j, node, direction) result(reason)
     integer, intent(in) :: i, j, node(:), direction(:)
     character(len=200) :: reason
@@ -238,7 +208,7 @@ contains
       //': the file was written twice, or into another one'
   end function repetition
 
-  !> Compressed columns of both triangles from the sorted lower one, in which a pair of places has one entry or two
+  !> Compressed columns of both triangles from the sorted lower one, in which a pair of positions has one entry or two
   !> neighbours. An entry that is missing is its partner's value, unless the file has some pair of two, and so the whole
   !> matrix, or is `given_whole`.
   pure subroutine unfold(lower, above, order, begin, given_whole, matrix, status)
@@ -265,7 +235,7 @@ contains
     if (status /= 0) return
     call count_columns(lower, above, whole, matrix%column)
     next = matrix%column
-    ! Columns before j have filled the part of column j above the diagonal, rows ascending.
+    ! Columns before j have filled column j above the diagonal, rows ascending.
     do j = 1, size(begin) - 1
       do k = begin(j), begin(j + 1) - 1
         i = lower%row(order(k))
@@ -276,7 +246,7 @@ contains
     end do
   end subroutine unfold
 
-  !> Set an entry at place `next`, which moves on.
+  !> Set an entry at position `next`, which moves on.
   pure subroutine put(matrix, next, row, value)
     type(compressed_columns), intent(inout) :: matrix
     integer, intent(inout) :: next

@@ -10,9 +10,9 @@ module fuge_stiffness_files
   use fuge_row_names, only: read_row_names
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY, FUGE_ERR_OPTION
   use fuge_stiffness_entries, only: make_columns, stiffness_entries
-  use fuge_stiffness_formats, only: is_binary_op4, recognise_format, FUGE_STIFFNESS_ABAQUS, FUGE_STIFFNESS_ANY, &
+  use fuge_stiffness_formats, only: is_binary_op4, recognise_format, FUGE_STIFFNESS_ANY, &
     FUGE_STIFFNESS_CALCULIX, FUGE_STIFFNESS_DMIG, FUGE_STIFFNESS_MATRIX_MARKET, FUGE_STIFFNESS_OP4
-  use fuge_text_fields, only: lower_case
+  use fuge_text_numbers, only: lower_case
   use fuge_text_reader, only: quoted_path, text_file
   implicit none
   private
@@ -25,8 +25,8 @@ contains
   !> of its rows. Ten arguments: the file, three arrays of the matrix, two of names, the report, and three options.
   !>
   !> `column`, `row`, `value`: both triangles, rows ascending, as fuge_read_sparse returns them and
-  !> fuge_sparse_stiffness takes them, in the unit of the file; if it has one triangle, or one of each two places, the
-  !> other is its mirror image. `node`, `direction` (rows): the node of each row and its direction, 1 to 3 for
+  !> fuge_sparse_stiffness takes them, in the unit of the file; if it has one triangle, or one of each two positions,
+  !> the other is its mirror image. `node`, `direction` (rows): the node of each row and its direction, 1 to 3 for
   !> displacements along x, y, z and 4 to 6 for rotations; 0 where no name is known. All five are allocated afresh.
   !>
   !> `format` (default FUGE_STIFFNESS_ANY: by the content):

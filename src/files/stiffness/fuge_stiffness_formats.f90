@@ -1,8 +1,8 @@
 !> The formats of files with a stiffness matrix, and which of them a file has.
 module fuge_stiffness_formats
-  use fuge_entry_fields, only: is_comment
+  use fuge_entry_numbers, only: is_comment
   use fuge_op4_reader, only: is_op4_header
-  use fuge_text_fields, only: lower_case
+  use fuge_text_numbers, only: lower_case
   use fuge_text_reader, only: text_file
   implicit none
   private

@@ -5,7 +5,7 @@ module fuge_grid_axis
   implicit none
   private
 
-  public :: find_axis, place_on_axis, position_on_axis
+  public :: find_axis, number_on_axis, position_on_axis
 
   !> Positions first + (k - 1)*spacing, k = 1 .. count.
   type, public :: grid_axis
@@ -17,8 +17,8 @@ module fuge_grid_axis
 
   !> Coordinates that differ by less than this fraction of the widest step are the same position.
   real(dp), parameter :: SAME_POSITION = 0.25_dp
-  !> A position may be off its place by this fraction of the spacing: coordinates in files are rounded.
-  real(dp), parameter :: PLACE_TOLERANCE = 0.05_dp
+  !> A coordinate may be off its position by this fraction of the spacing: coordinates in files are rounded.
+  real(dp), parameter :: POSITION_TOLERANCE = 0.05_dp
 
 contains
 
@@ -46,7 +46,7 @@ contains
     end do
     axis%spacing = (position(positions) - position(1))/real(axis%count - 1, dp)
     do k = 2, positions
-      if (is_in_place(position(k), axis)) cycle
+      if (is_on_axis(position(k), axis)) cycle
       reason = name//' = '//text(position(k))//' is no multiple of the step '//text(axis%spacing)//' away from '//name &
                //' = '//text(axis%first)//': positions must be a regular grid'
       return
@@ -54,34 +54,34 @@ contains
   end subroutine find_axis
 
   !> The number of a position, 1 .. count.
-  elemental function place_on_axis(x, axis) result(place)
+  elemental function number_on_axis(x, axis) result(number)
     real(dp), intent(in) :: x
     type(grid_axis), intent(in) :: axis
-    integer :: place
+    integer :: number
 
-    place = 1
-    if (axis%count > 1) place = 1 + nint((x - axis%first)/axis%spacing)
-  end function place_on_axis
+    number = 1
+    if (axis%count > 1) number = 1 + nint((x - axis%first)/axis%spacing)
+  end function number_on_axis
 
-  !> Position number `place`.
-  elemental function position_on_axis(place, axis) result(x)
-    integer, intent(in) :: place
+  !> Position number `number`.
+  elemental function position_on_axis(number, axis) result(x)
+    integer, intent(in) :: number
     type(grid_axis), intent(in) :: axis
     real(dp) :: x
 
-    x = axis%first + real(place - 1, dp)*axis%spacing
+    x = axis%first + real(number - 1, dp)*axis%spacing
   end function position_on_axis
 
   !> Is the coordinate at one of the positions?
-  pure function is_in_place(x, axis) result(in_place)
+  pure function is_on_axis(x, axis) result(on_axis)
     real(dp), intent(in) :: x
     type(grid_axis), intent(in) :: axis
-    logical :: in_place
-    real(dp) :: place
+    logical :: on_axis
+    real(dp) :: number
 
-    place = (x - axis%first)/axis%spacing
-    in_place = abs(place - anint(place)) <= PLACE_TOLERANCE
-  end function is_in_place
+    number = (x - axis%first)/axis%spacing
+    on_axis = abs(number - anint(number)) <= POSITION_TOLERANCE
+  end function is_on_axis
 
   !> The `distinct` different values of `x` in ascending order: position(:distinct).
   !>

@@ -2,7 +2,7 @@
 module fuge_instrument_files
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE
-  use fuge_text_fields, only: lower_case
+  use fuge_text_numbers, only: lower_case
   use fuge_text_reader, only: text_file
   implicit none
   private
@@ -36,7 +36,7 @@ module fuge_instrument_files
   !> The first bytes of an archive, and of text in UTF-16.
   character(len=*), parameter :: ZIP = 'PK'//char(3)//char(4)
   character(len=*), parameter :: UTF_16(2) = [char(255)//char(254), char(254)//char(255)]
-  !> Bytes in which a file that is not text has one that no text has.
+  !> Bytes that are examined at the beginning: a file that is not text has one among them that no text has.
   integer(int64), parameter :: EXAMINED = 4096_int64
   integer, parameter :: FIRST_PRINTABLE = 32, TAB = 9, CARRIAGE_RETURN = 13, END_OF_FILE = 26
 

@@ -7,17 +7,18 @@ module fuge_sdf_header
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info
   use fuge_surface_heights, only: is_in_range
-  use fuge_text_fields, only: describe_field, find_field, lower_case, quoted, read_number, read_whole, FIELD_NUMBER
+  use fuge_text_columns, only: find_column
+  use fuge_text_numbers, only: describe_text, lower_case, quoted, read_number, read_whole, KIND_NUMBER
   use fuge_text_reader, only: text_file
   implicit none
   private
 
   public :: check_version, is_sdf, read_binary_header, read_text_header
 
-  !> Length of the version, the first field of a binary header, and of the whole header.
+  !> Length of the version, which a binary header begins with, and of the whole header.
   integer, parameter :: VERSION_LENGTH = 8
   integer(int64), parameter, public :: BINARY_HEADER_LENGTH = 81_int64
-  !> As many characters of a name as tell it from others.
+  !> First characters of a name, enough to tell it from others.
   integer, parameter :: NAME_LENGTH = 12
   !> Types of the heights.
   integer, parameter, public :: SDF_INT16 = 5, SDF_INT32 = 6, SDF_DOUBLE = 7
@@ -93,7 +94,7 @@ contains
         call file%refuse('the header must end with a line with *', info)
         return
       end if
-      call find_field(file%content(file%first:file%last), 1, first, last)
+      call find_column(file%content(file%first:file%last), 1, first, last)
       if (last < first) cycle
       if (file%content(file%first + first - 1:file%first + first - 1) == '*') exit
       call read_entry(file, header, info)
@@ -130,10 +131,10 @@ contains
 
     equals = scan(line, '=')
     name = ''
-    call find_field(line, 1, first, last)
+    call find_column(line, 1, first, last)
     if (equals > 0) name = line(first:min(last, equals - 1))
     name = lower_case(name)
-    call find_field(line, equals + 1, first, last)
+    call find_column(line, equals + 1, first, last)
   end subroutine split_entry
 
   pure subroutine take_whole(file, first, last, value, info)
@@ -146,7 +147,7 @@ contains
     value = 0_int64
     associate (begin => file%first - 1_int64)
       call read_whole(file%content(begin + first:begin + last), kind, value)
-      if (kind /= FIELD_NUMBER) call file%refuse(quoted(file%content(begin + first:begin + last)) &
+      if (kind /= KIND_NUMBER) call file%refuse(quoted(file%content(begin + first:begin + last)) &
                                                  //' is not a whole number', info)
     end associate
   end subroutine take_whole
@@ -160,7 +161,7 @@ contains
 
     associate (begin => file%first - 1_int64)
       call read_number(file%content(begin + first:begin + last), kind, value)
-      if (kind /= FIELD_NUMBER) call file%refuse(describe_field(file%content(begin + first:begin + last), kind), info)
+      if (kind /= KIND_NUMBER) call file%refuse(describe_text(file%content(begin + first:begin + last), kind), info)
     end associate
   end subroutine take_real
 
@@ -196,7 +197,7 @@ contains
     call check_header(file, header, info)
   end subroutine read_binary_header
 
-  !> Refuse numbers of points and scales that cannot be, and compressed heights (FUGE_ERR_FILE).
+  !> Refuse impossible numbers of points and scales, and compressed heights (FUGE_ERR_FILE).
   pure subroutine check_header(file, header, info)
     type(text_file), intent(in) :: file
     type(sdf_header), intent(in) :: header

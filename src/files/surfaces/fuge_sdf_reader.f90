@@ -11,7 +11,8 @@ module fuge_sdf_reader
   use fuge_status, only: fuge_info
   use fuge_surface_heights, only: allocate_heights, read_height, NOT_MEASURED
   use fuge_surface_type, only: fuge_surface
-  use fuge_text_fields, only: find_field, quoted
+  use fuge_text_columns, only: find_column
+  use fuge_text_numbers, only: quoted
   use fuge_text_reader, only: text_file
   implicit none
   private
@@ -94,7 +95,7 @@ contains
 
     last = 0
     do
-      call find_field(line, last + 1, first, last)
+      call find_column(line, last + 1, first, last)
       if (last < first) return
       ended = line(first:first) == '*'
       if (ended) return

@@ -52,7 +52,7 @@ contains
   pure subroutine fill_surface(height, filled, status)
     real(dp), intent(inout) :: height(:, :)
     integer, intent(out) :: filled, status
-    integer, allocatable :: place(:, :)
+    integer, allocatable :: queue(:, :)
     real(dp), allocatable :: value(:)
     integer :: first, k, last, queued
 
@@ -60,45 +60,45 @@ contains
     filled = count(.not. height < NOT_MEASURED)
     if (filled == 0) return
     status = merge(1, 0, filled == size(height))
-    if (status == 0) allocate (place(2, filled), value(filled), stat=status)
+    if (status == 0) allocate (queue(2, filled), value(filled), stat=status)
     if (status /= 0) return
-    call queue_rim(height, place, queued)
+    call queue_rim(height, queue, queued)
     first = 1
     do while (first <= queued)
       last = queued
       do k = first, last
-        value(k) = mean_of_neighbours(height, place(1, k), place(2, k))
+        value(k) = mean_of_neighbours(height, queue(1, k), queue(2, k))
       end do
       do k = first, last
-        height(place(1, k), place(2, k)) = value(k)
+        height(queue(1, k), queue(2, k)) = value(k)
       end do
       do k = first, last
-        call queue_neighbours(height, place(1, k), place(2, k), place, queued)
+        call queue_neighbours(height, queue(1, k), queue(2, k), queue, queued)
       end do
       first = last + 1
     end do
   end subroutine fill_surface
 
   !> Queue the points at the rims of the holes: those next to a point with a height.
-  pure subroutine queue_rim(height, place, queued)
+  pure subroutine queue_rim(height, queue, queued)
     real(dp), intent(inout) :: height(:, :)
-    integer, intent(inout) :: place(:, :)
+    integer, intent(inout) :: queue(:, :)
     integer, intent(out) :: queued
     integer :: i, j
 
     queued = 0
     do j = 1, size(height, 2)
       do i = 1, size(height, 1)
-        if (is_known(height, i, j)) call queue_neighbours(height, i, j, place, queued)
+        if (is_known(height, i, j)) call queue_neighbours(height, i, j, queue, queued)
       end do
     end do
   end subroutine queue_rim
 
   !> Queue the neighbours of a point that were not measured and do not wait yet.
-  pure subroutine queue_neighbours(height, i, j, place, queued)
+  pure subroutine queue_neighbours(height, i, j, queue, queued)
     real(dp), intent(inout) :: height(:, :)
     integer, intent(in) :: i, j
-    integer, intent(inout) :: place(:, :), queued
+    integer, intent(inout) :: queue(:, :), queued
     integer :: k, next_i, next_j
 
     do k = 1, 4
@@ -107,7 +107,7 @@ contains
       if (height(next_i, next_j) < NOT_MEASURED) cycle
       height(next_i, next_j) = WAITING
       queued = queued + 1
-      place(:, queued) = [next_i, next_j]
+      queue(:, queued) = [next_i, next_j]
     end do
   end subroutine queue_neighbours
 

@@ -6,7 +6,8 @@ module fuge_surface_grid
   use fuge_surface_heights, only: allocate_heights
   use fuge_surface_rows, only: advance_to_row, count_rows, find_first_row, read_row, refuse_unmeasured, row_form
   use fuge_surface_type, only: fuge_surface
-  use fuge_text_fields, only: read_number, find_field, FIELD_NUMBER
+  use fuge_text_columns, only: find_column
+  use fuge_text_numbers, only: read_number, KIND_NUMBER
   use fuge_text_reader, only: text_file
   use fuge_text_writer, only: text_output
   implicit none
@@ -18,7 +19,7 @@ module fuge_surface_grid
   character(len=*), parameter :: NAME_X = '# spacing_x =', NAME_Y = '# spacing_y ='
   !> Numbers that one write statement converts, because each statement costs time.
   integer, parameter :: BLOCK = 64
-  integer, parameter :: FIELD_LENGTH = 25
+  integer, parameter :: NUMBER_LENGTH = 25
 
 contains
 
@@ -88,10 +89,10 @@ contains
     integer :: first, last, next, after, kind
 
     if (index(line, name) /= 1) return
-    call find_field(line, len(name) + 1, first, last)
+    call find_column(line, len(name) + 1, first, last)
     call read_number(line(first:last), kind, value)
-    call find_field(line, last + 1, next, after)
-    if (kind == FIELD_NUMBER .and. after < next .and. value > 0.0_dp) spacing = value
+    call find_column(line, last + 1, next, after)
+    if (kind == KIND_NUMBER .and. after < next .and. value > 0.0_dp) spacing = value
   end subroutine read_spacing
 
   !> Write a grid with 17 digits, so that it is read back to the last bit, and its spacings where they are known.
@@ -102,7 +103,7 @@ contains
     type(fuge_surface), intent(in) :: surface
     type(fuge_info), intent(inout) :: info
     type(text_output) :: file
-    character(len=FIELD_LENGTH) :: spacings(2)
+    character(len=NUMBER_LENGTH) :: spacings(2)
     integer :: j
 
     call file%create(path, info)
@@ -119,27 +120,27 @@ contains
   subroutine write_row(file, height)
     type(text_output), intent(inout) :: file
     real(dp), intent(in) :: height(:)
-    character(len=FIELD_LENGTH) :: fields(BLOCK)
+    character(len=NUMBER_LENGTH) :: strings(BLOCK)
     integer :: i, k, last
 
     do i = 1, size(height), BLOCK
       last = min(i + BLOCK - 1, size(height))
-      call convert(height(i:last), fields)
+      call convert(height(i:last), strings)
       do k = 1, last - i + 1
-        call file%put_bytes(fields(k)(merge(2, 1, i + k == 2):))
+        call file%put_bytes(strings(k)(merge(2, 1, i + k == 2):))
       end do
     end do
     call file%put('')
   end subroutine write_row
 
   !> Numbers as text.
-  subroutine convert(numbers, fields)
+  subroutine convert(numbers, strings)
     real(dp), intent(in) :: numbers(:)
-    character(len=FIELD_LENGTH), intent(inout) :: fields(:)
+    character(len=NUMBER_LENGTH), intent(inout) :: strings(:)
 
     ! gfortran's run-time library keeps internal units in the list through which `open` walks.
     call lock(LOCK_FILES)
-    write (fields(:size(numbers)), '(es25.16e3)') numbers
+    write (strings(:size(numbers)), '(es25.16e3)') numbers
     call unlock(LOCK_FILES)
   end subroutine convert
 

@@ -1,4 +1,4 @@
-!> Heights of a surface: those in the fields of a file, measured or not, and those of a caller.
+!> Heights of a surface: those in the columns of a file, measured or not, and those of a caller.
 module fuge_surface_heights
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
   use fuge_constants, only: LARGEST_EXPONENT
@@ -6,8 +6,8 @@ module fuge_surface_heights
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, &
     FUGE_ERR_SIZE
-  use fuge_text_fields, only: describe_field, lower_case, quoted, read_number, FIELD_NOT_FINITE, FIELD_NUMBER, &
-    FIELD_WORD
+  use fuge_text_numbers, only: describe_text, lower_case, quoted, read_number, KIND_NOT_FINITE, KIND_NUMBER, &
+    KIND_WORD
   implicit none
   private
 
@@ -38,23 +38,23 @@ contains
     if (status /= 0) call report(info, FUGE_ERR_MEMORY, name//': no memory for '//text(nx)//' x '//text(ny)//' heights')
   end subroutine allocate_heights
 
-  !> Convert a field to a height, or to NOT_MEASURED if it is empty, NaN, or BAD, in letters of either case.
+  !> Convert a column to a height, or to NOT_MEASURED if it is empty, NaN, or BAD, in letters of either case.
   !>
-  !> `reason` is allocated if the field is neither, or out of range.
-  pure subroutine read_height(field, value, reason)
-    character(len=*), intent(in) :: field
+  !> `reason` is allocated if the column is neither, or out of range.
+  pure subroutine read_height(string, value, reason)
+    character(len=*), intent(in) :: string
     real(dp), intent(out) :: value
     character(len=:), allocatable, intent(inout) :: reason
     integer :: kind
 
-    call read_number(field, kind, value)
-    if (kind == FIELD_NUMBER .and. is_in_range(value)) return
-    if (kind == FIELD_NUMBER) then
-      reason = quoted(field)//' is out of range: choose another unit of length'
-    else if (is_not_measured(field, kind)) then
+    call read_number(string, kind, value)
+    if (kind == KIND_NUMBER .and. is_in_range(value)) return
+    if (kind == KIND_NUMBER) then
+      reason = quoted(string)//' is out of range: choose another unit of length'
+    else if (is_not_measured(string, kind)) then
       value = NOT_MEASURED
     else
-      reason = describe_field(field, kind)
+      reason = describe_text(string, kind)
     end if
   end subroutine read_height
 
@@ -66,17 +66,17 @@ contains
     in_range = abs(value) <= LARGEST_HEIGHT
   end function is_in_range
 
-  !> Does a field that is no number say that a point was not measured? `kind` as `read_number` returns it.
-  pure function is_not_measured(field, kind) result(unmeasured)
-    character(len=*), intent(in) :: field
+  !> Does a column that is no number say that a point was not measured? `kind` as `read_number` returns it.
+  pure function is_not_measured(string, kind) result(unmeasured)
+    character(len=*), intent(in) :: string
     integer, intent(in) :: kind
     logical :: unmeasured
     character(len=4) :: word
 
-    word = field
+    word = string
     word = lower_case(word)
-    unmeasured = len(field) == 0 .or. (kind == FIELD_WORD .and. word == 'bad' .and. len(field) == 3)
-    if (kind == FIELD_NOT_FINITE) unmeasured = index(word, 'nan') > 0
+    unmeasured = len(string) == 0 .or. (kind == KIND_WORD .and. word == 'bad' .and. len(string) == 3)
+    if (kind == KIND_NOT_FINITE) unmeasured = index(word, 'nan') > 0
   end function is_not_measured
 
   !> Refuse a surface without points (FUGE_ERR_SIZE), NaN and infinity (FUGE_ERR_NOT_FINITE), and heights out of range

@@ -42,13 +42,13 @@ contains
 
   !> Subtract the mean height and, if `tilted`, the slopes of the least-squares plane.
   !>
-  !> Places along x and along y are counted from the middle, -1/2 .. 1/2: mean and slopes are then independent of each
-  !> other, and nothing overflows.
+  !> Coordinates along x and along y are counted from the middle, -1/2 .. 1/2: mean and slopes are then independent of
+  !> each other, and nothing overflows.
   pure subroutine subtract_plane(height, tilted)
     real(dp), intent(inout) :: height(:, :)
     logical, intent(in) :: tilted
     real(dp) :: of_row(size(height, 1)), of_column(size(height, 2))
-    real(dp) :: mean, slope_x, slope_y, part
+    real(dp) :: mean, slope_x, slope_y, offset
     integer :: i, j
 
     call find_means(height, of_row, of_column)
@@ -60,9 +60,9 @@ contains
       slope_y = slope(of_column)
     end if
     do j = 1, size(height, 2)
-      part = mean + slope_y*place(j, size(height, 2))
+      offset = mean + slope_y*coordinate(j, size(height, 2))
       do i = 1, size(height, 1)
-        height(i, j) = height(i, j) - (part + slope_x*place(i, size(height, 1)))
+        height(i, j) = height(i, j) - (offset + slope_x*coordinate(i, size(height, 1)))
       end do
     end do
   end subroutine subtract_plane
@@ -91,20 +91,20 @@ contains
     moment = 0.0_dp
     squares = 0.0_dp
     do k = 1, size(value)
-      moment = moment + place(k, size(value))*value(k)
-      squares = squares + place(k, size(value))**2
+      moment = moment + coordinate(k, size(value))*value(k)
+      squares = squares + coordinate(k, size(value))**2
     end do
     slope = 0.0_dp
     if (squares > 0.0_dp) slope = moment/squares
   end function slope
 
-  !> Place of value k of n, counted from the middle in lengths of the whole.
-  elemental function place(k, n)
+  !> Coordinate of value k of n, counted from the middle in lengths of the whole.
+  elemental function coordinate(k, n)
     integer, intent(in) :: k, n
-    real(dp) :: place
+    real(dp) :: coordinate
 
-    place = 0.0_dp
-    if (n > 1) place = (real(k - 1, dp) - 0.5_dp*real(n - 1, dp))/real(n - 1, dp)
-  end function place
+    coordinate = 0.0_dp
+    if (n > 1) coordinate = (real(k - 1, dp) - 0.5_dp*real(n - 1, dp))/real(n - 1, dp)
+  end function coordinate
 
 end module fuge_surface_levelling

@@ -1,7 +1,7 @@
 !> A surface from three columns, x, y and height of a point on each line.
 module fuge_surface_points
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge_grid_axis, only: find_axis, grid_axis, place_on_axis, position_on_axis
+  use fuge_grid_axis, only: find_axis, grid_axis, number_on_axis, position_on_axis
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
@@ -49,7 +49,7 @@ contains
     call read_lines(file, fill, point, info)
     if (.not. info%failed()) call find_axes(file, point, axis, info)
     if (.not. info%failed()) call allocate_heights(file%name, axis(1)%count, axis(2)%count, surface%height, info)
-    if (.not. info%failed()) call place_points(file, point, axis, surface%height, info)
+    if (.not. info%failed()) call enter_points(file, point, axis, surface%height, info)
     if (.not. info%failed()) call check_all_named(file, axis, fill, surface%height, info)
     surface%spacing_x = axis(1)%spacing
     surface%spacing_y = axis(2)%spacing
@@ -93,7 +93,7 @@ contains
     type(grid_axis), intent(out) :: axis(2)
     type(fuge_info), intent(inout) :: info
     character(len=:), allocatable :: reason
-    integer(int64) :: places
+    integer(int64) :: grid_points
     integer :: direction, status
 
     do direction = 1, 2
@@ -105,15 +105,15 @@ contains
       end if
       if (info%failed()) return
     end do
-    places = int(axis(1)%count, int64)*int(axis(2)%count, int64)
-    if (places/2_int64 > size(point, 1)) then
+    grid_points = int(axis(1)%count, int64)*int(axis(2)%count, int64)
+    if (grid_points/2_int64 > size(point, 1)) then
       call report(info, FUGE_ERR_FILE, file%name//': '//text(size(point, 1))//' points are no full grid of ' &
                   //text(axis(1)%count)//' positions x and '//text(axis(2)%count)//' positions y')
     end if
   end subroutine find_axes
 
-  !> Give each point its place in the grid; a second point at a place is refused.
-  pure subroutine place_points(file, point, axis, height, info)
+  !> Enter each point in the grid; a second point at a position is refused.
+  pure subroutine enter_points(file, point, axis, height, info)
     type(text_file), intent(inout) :: file
     real(dp), intent(in) :: point(:, :)
     type(grid_axis), intent(in) :: axis(2)
@@ -123,17 +123,17 @@ contains
 
     height = NOT_NAMED
     do k = 1, size(point, 1)
-      i = place_on_axis(point(k, 1), axis(1))
-      j = place_on_axis(point(k, 2), axis(2))
+      i = number_on_axis(point(k, 1), axis(1))
+      j = number_on_axis(point(k, 2), axis(2))
       if (height(i, j) > NOT_NAMED) then
         call refuse_second_point(file, k, point(k, 1:2), info)
         return
       end if
       height(i, j) = point(k, 3)
     end do
-  end subroutine place_points
+  end subroutine enter_points
 
-  !> Refuse point `k`, at a place that another one has.
+  !> Refuse point `k`, at a position that another one has.
   pure subroutine refuse_second_point(file, k, position, info)
     type(text_file), intent(inout) :: file
     integer, intent(in) :: k

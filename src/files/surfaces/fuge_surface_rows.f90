@@ -6,7 +6,7 @@ module fuge_surface_rows
   use fuge_status, only: fuge_info
   use fuge_surface_heights, only: read_height, NOT_MEASURED
   use fuge_text_columns, only: begin_columns, next_column, separator_name, SEPARATOR_BLANK, SEPARATOR_NONE
-  use fuge_text_fields, only: read_number, FIELD_WORD
+  use fuge_text_numbers, only: read_number, KIND_WORD
   use fuge_text_reader, only: text_file
   implicit none
   private
@@ -21,12 +21,12 @@ module fuge_surface_rows
   end type row_form
 
   !> Where a row is.
-  type :: row_place
+  type :: row_position
     type(row_form) :: form
     integer :: line = 0
     integer(int64) :: first = 1_int64
     integer(int64) :: last = -1_int64
-  end type row_place
+  end type row_position
 
 contains
 
@@ -40,7 +40,7 @@ contains
     type(text_file), intent(inout) :: file
     type(row_form), intent(out) :: form
     type(fuge_info), intent(inout) :: info
-    type(row_place) :: doubtful
+    type(row_position) :: doubtful
     logical :: exists, words, begins_with_word
 
     call file%rewind()
@@ -51,7 +51,7 @@ contains
       call find_form(file%content(file%first:file%last), form, words, begins_with_word)
       if (words) cycle
       if (.not. begins_with_word) exit
-      if (form%columns > doubtful%form%columns) doubtful = row_place(form, file%line, file%first, file%last)
+      if (form%columns > doubtful%form%columns) doubtful = row_position(form, file%line, file%first, file%last)
     end do
     if (doubtful%form%columns > 0 .and. (.not. exists .or. doubtful%form%columns >= form%columns)) then
       form = doubtful%form
@@ -115,7 +115,7 @@ contains
       form%columns = form%columns + 1
       if (form%columns == 1) form%separator = separator
       call read_number(line(first:last), kind, value)
-      words = words .and. kind == FIELD_WORD
+      words = words .and. kind == KIND_WORD
       if (words) call read_height(line(first:last), value, reason)
       words = words .and. allocated(reason)
       if (allocated(reason)) deallocate (reason)

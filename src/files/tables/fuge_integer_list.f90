@@ -1,9 +1,8 @@
 !> A list of integers that grows.
 module fuge_integer_list
+  use fuge_growing_arrays, only: make_room
   implicit none
   private
-
-  integer, parameter :: FIRST_ROOM = 64
 
   !> The integers item(1 : count).
   type, public :: integer_list
@@ -20,20 +19,9 @@ contains
     class(integer_list), intent(inout) :: self
     integer, intent(in) :: number
     integer, intent(inout) :: status
-    integer, allocatable :: longer(:)
-    integer :: room
 
+    call make_room(self%item, self%count, status)
     if (status /= 0) return
-    room = 0
-    if (allocated(self%item)) room = size(self%item)
-    if (self%count == room) then
-      status = 1
-      if (room > shiftr(huge(1), 1)) return
-      allocate (longer(max(2*room, FIRST_ROOM)), stat=status)
-      if (status /= 0) return
-      if (room > 0) longer(:room) = self%item
-      call move_alloc(longer, self%item)
-    end if
     self%count = self%count + 1
     self%item(self%count) = number
   end subroutine append

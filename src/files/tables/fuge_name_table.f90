@@ -19,7 +19,7 @@ module fuge_name_table
     integer, allocatable, private :: slot(:)
   contains
     procedure :: number_of
-    procedure :: place_of
+    procedure :: find
     procedure, private :: grow
     procedure, private :: slot_of
   end type name_table
@@ -33,7 +33,7 @@ contains
     character(len=*), intent(in) :: name
     integer, intent(out) :: number
     integer, intent(inout) :: status
-    integer :: place
+    integer :: slot
     logical :: full
 
     number = 0
@@ -41,30 +41,30 @@ contains
     if (.not. full) full = self%count >= size(self%slot)/2
     if (full .and. status == 0) call self%grow(status)
     if (status /= 0) return
-    place = self%slot_of(name)
-    number = self%slot(place)
+    slot = self%slot_of(name)
+    number = self%slot(slot)
     if (number > 0) return
     self%count = self%count + 1
     number = self%count
-    self%slot(place) = number
+    self%slot(slot) = number
     self%name(number) = name
   end subroutine number_of
 
   !> The number of a name, 0 if it is not known.
-  pure function place_of(self, name) result(number)
+  pure function find(self, name) result(number)
     class(name_table), intent(in) :: self
     character(len=*), intent(in) :: name
     integer :: number
 
     number = 0
     if (allocated(self%slot)) number = self%slot(self%slot_of(name))
-  end function place_of
+  end function find
 
   !> The slot of a name, or the free one where it belongs.
-  pure function slot_of(self, name) result(place)
+  pure function slot_of(self, name) result(slot)
     class(name_table), intent(in) :: self
     character(len=*), intent(in) :: name
-    integer :: place
+    integer :: slot
     integer(int64) :: mixed
     integer :: k
 
@@ -72,10 +72,10 @@ contains
     do k = 1, len_trim(name)
       mixed = mod((mixed + int(iachar(name(k:k)), int64))*FACTOR, MODULUS)
     end do
-    place = int(iand(mixed, int(size(self%slot) - 1, int64))) + 1
-    do while (self%slot(place) > 0)
-      if (self%name(self%slot(place)) == name) return
-      place = modulo(place, size(self%slot)) + 1
+    slot = int(iand(mixed, int(size(self%slot) - 1, int64))) + 1
+    do while (self%slot(slot) > 0)
+      if (self%name(self%slot(slot)) == name) return
+      slot = modulo(slot, size(self%slot)) + 1
     end do
   end function slot_of
 

@@ -1,6 +1,7 @@
 !> Rows of a stiffness matrix that a file names by node and direction: from a name to its number, and in order.
 module fuge_row_table
   use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_growing_arrays, only: resize
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
   implicit none
@@ -24,7 +25,7 @@ module fuge_row_table
     integer, allocatable, private :: slot(:)
   contains
     procedure :: number_of
-    procedure :: place_of
+    procedure :: find
     procedure :: sort
     procedure :: move_to
     procedure, private :: grow
@@ -38,7 +39,7 @@ contains
     class(row_table), intent(inout) :: self
     integer, intent(in) :: node, direction
     integer, intent(out) :: number, status
-    integer :: place
+    integer :: slot
     logical :: full
 
     status = 0
@@ -47,31 +48,31 @@ contains
     if (.not. full) full = self%count >= size(self%slot)/2
     if (full) call self%grow(status)
     if (status /= 0) return
-    place = self%slot_of(node, direction)
-    number = self%slot(place)
+    slot = self%slot_of(node, direction)
+    number = self%slot(slot)
     if (number > 0) return
     self%count = self%count + 1
     number = self%count
-    self%slot(place) = number
+    self%slot(slot) = number
     self%node(number) = node
     self%direction(number) = direction
   end subroutine number_of
 
   !> The number of a row, 0 if the name is not known.
-  pure function place_of(self, node, direction) result(number)
+  pure function find(self, node, direction) result(number)
     class(row_table), intent(in) :: self
     integer, intent(in) :: node, direction
     integer :: number
 
     number = 0
     if (allocated(self%slot)) number = self%slot(self%slot_of(node, direction))
-  end function place_of
+  end function find
 
   !> The slot of a name, or the free one where it belongs.
-  pure function slot_of(self, node, direction) result(place)
+  pure function slot_of(self, node, direction) result(slot)
     class(row_table), intent(in) :: self
     integer, intent(in) :: node, direction
-    integer :: place
+    integer :: slot
     integer(int64) :: key, mixed
     integer :: number
 
@@ -79,14 +80,14 @@ contains
     key = abs(4_int64*int(node, int64) + int(direction, int64))
     mixed = shiftr(key, BLOCK_BITS)*SPREAD
     mixed = ieor(mixed, shiftr(mixed, 15))
-    place = int(iand(shiftl(mixed, BLOCK_BITS) + iand(key, shiftl(1_int64, BLOCK_BITS) - 1_int64), &
+    slot = int(iand(shiftl(mixed, BLOCK_BITS) + iand(key, shiftl(1_int64, BLOCK_BITS) - 1_int64), &
                      int(size(self%slot) - 1, int64))) + 1
     do
-      number = self%slot(place)
+      number = self%slot(slot)
       if (number == 0) return
       if (self%node(number) == node .and. self%direction(number) == direction) return
-      place = place + 1
-      if (place > size(self%slot)) place = 1
+      slot = slot + 1
+      if (slot > size(self%slot)) slot = 1
     end do
   end function slot_of
 
@@ -105,7 +106,7 @@ contains
   pure subroutine grow(self, status)
     class(row_table), intent(inout) :: self
     integer, intent(out) :: status
-    integer, allocatable :: node(:), direction(:), slot(:)
+    integer, allocatable :: slot(:)
     integer :: k, slots
 
     slots = FIRST_SLOTS
@@ -114,33 +115,29 @@ contains
       if (size(self%slot) >= shiftr(huge(1), 1)) return
       slots = 2*size(self%slot)
     end if
-    allocate (node(slots/2), direction(slots/2), slot(slots), stat=status)
+    allocate (slot(slots), stat=status)
+    call resize(self%node, slots/2, status)
+    call resize(self%direction, slots/2, status)
     if (status /= 0) return
     slot = 0
-    if (self%count > 0) then
-      node(:self%count) = self%node(:self%count)
-      direction(:self%count) = self%direction(:self%count)
-    end if
-    call move_alloc(node, self%node)
-    call move_alloc(direction, self%direction)
     call move_alloc(slot, self%slot)
     do k = 1, self%count
       self%slot(self%slot_of(self%node(k), self%direction(k))) = k
     end do
   end subroutine grow
 
-  !> The rows by nodes, those of a node by directions: row k of the table becomes row `place(k)`, and `node` and
+  !> The rows by nodes, those of a node by directions: row k of the table becomes row `new_row(k)`, and `node` and
   !> `direction` are those of the sorted rows. `status` is not zero without memory.
-  pure subroutine sort(self, place, node, direction, status)
+  pure subroutine sort(self, new_row, node, direction, status)
     class(row_table), intent(in) :: self
-    integer, allocatable, intent(out) :: place(:), node(:), direction(:)
+    integer, allocatable, intent(out) :: new_row(:), node(:), direction(:)
     integer, intent(out) :: status
     real(dp), allocatable :: key(:)
     integer, allocatable :: order(:)
     integer :: k, n
 
     n = self%count
-    allocate (place(n), node(n), direction(n), order(n), key(n), stat=status)
+    allocate (new_row(n), node(n), direction(n), order(n), key(n), stat=status)
     if (status /= 0) return
     do k = 1, n
       order(k) = k
@@ -149,7 +146,7 @@ contains
     end do
     call heap_sort(key, order)
     do k = 1, n
-      place(order(k)) = k
+      new_row(order(k)) = k
       node(k) = self%node(order(k))
       direction(k) = self%direction(order(k))
     end do

@@ -1,9 +1,10 @@
-!> The columns of a line of text: fields between blanks, tabs, commas or semicolons.
+!> The columns of a line of text: what stands between blanks and tabs, or between blanks, tabs, commas and semicolons up
+!> to a comment.
 module fuge_text_columns
   implicit none
   private
 
-  public :: begin_columns, next_column, separator_name
+  public :: after_blanks, begin_columns, find_column, next_column, separator_name, split_columns
 
   !> What follows a column.
   integer, parameter, public :: SEPARATOR_NONE = 0
@@ -13,6 +14,16 @@ module fuge_text_columns
 
   !> Kinds of characters; # and ! begin a comment.
   integer, parameter :: OTHER = 0, BLANK = 1, COMMA = 2, SEMICOLON = 3, COMMENT = 4
+
+  !> Columns of a line that are looked at.
+  integer, parameter :: MOST_COLUMNS = 6
+
+  !> Where the columns are: column k is line(first(k):last(k)). `count` is MOST_COLUMNS if there are as many or more.
+  type, public :: line_columns
+    integer :: count = 0
+    integer :: first(MOST_COLUMNS) = 1
+    integer :: last(MOST_COLUMNS) = 0
+  end type line_columns
 
 contains
 
@@ -36,12 +47,47 @@ contains
     end select
   end function kind_of
 
+  !> The first column between blanks from position `from` on: line(first:last), or last < first if there is none.
+  pure subroutine find_column(line, from, first, last)
+    character(len=*), intent(in) :: line
+    integer, intent(in) :: from
+    integer, intent(out) :: first, last
+
+    first = after_blanks(line, from)
+    last = first - 1
+    do while (last < len(line))
+      if (is_blank(line(last + 1:last + 1))) exit
+      last = last + 1
+    end do
+  end subroutine find_column
+
+  !> Position of the first character from `from` on that is not blank; len(line) + 1 if all are.
+  pure function after_blanks(line, from) result(k)
+    character(len=*), intent(in) :: line
+    integer, intent(in) :: from
+    integer :: k
+
+    k = from
+    do while (k <= len(line))
+      if (.not. is_blank(line(k:k))) exit
+      k = k + 1
+    end do
+  end function after_blanks
+
+  !> Is the character a blank, a tab, or the carriage return of a Windows line end?
+  pure function is_blank(letter)
+    character, intent(in) :: letter
+    logical :: is_blank
+
+    is_blank = kind_of(letter) == BLANK
+  end function is_blank
+
   !> Position of the first column of a line, len(line) + 1 if it has none: it is blank or a comment.
   pure function begin_columns(line) result(k)
     character(len=*), intent(in) :: line
     integer :: k
 
-    k = after_blanks(line, 1)
+    k = next_text(line, 1)
   end function begin_columns
 
   !> The column that begins at position `k`, line(first:last), which is empty if a separator stands there.
@@ -62,19 +108,32 @@ contains
       k = k + 1
     end do
     last = k - 1
-    k = after_blanks(line, k)
+    k = next_text(line, k)
     separator = SEPARATOR_NONE
     if (k > len(line)) return
     separator = SEPARATOR_BLANK
     letter_kind = kind_of(line(k:k))
     if (letter_kind /= COMMA .and. letter_kind /= SEMICOLON) return
     separator = merge(SEPARATOR_COMMA, SEPARATOR_SEMICOLON, letter_kind == COMMA)
-    k = after_blanks(line, k + 1)
+    k = next_text(line, k + 1)
   end subroutine next_column
+
+  !> Find the columns of a line, as `next_column` does.
+  pure subroutine split_columns(line, columns)
+    character(len=*), intent(in) :: line
+    type(line_columns), intent(out) :: columns
+    integer :: k, separator
+
+    k = begin_columns(line)
+    do while (k <= len(line) .and. columns%count < MOST_COLUMNS)
+      columns%count = columns%count + 1
+      call next_column(line, k, columns%first(columns%count), columns%last(columns%count), separator)
+    end do
+  end subroutine split_columns
 
   !> Position of the first character from `from` on that is neither blank nor in a comment; len(line) + 1 if there is
   !> none.
-  pure function after_blanks(line, from) result(k)
+  pure function next_text(line, from) result(k)
     character(len=*), intent(in) :: line
     integer, intent(in) :: from
     integer :: k
@@ -87,7 +146,7 @@ contains
       return
     end do
     k = len(line) + 1
-  end function after_blanks
+  end function next_text
 
   !> What stands between columns, for a message.
   pure function separator_name(separator) result(name)

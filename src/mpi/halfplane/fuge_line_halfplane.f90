@@ -19,20 +19,20 @@ module fuge_line_halfplane
   implicit none
   private
 
-  !> Two buffers, factors of the transform and two spectra take so many bytes for each cell of the circle.
+  !> Bytes that two buffers, the factors of the transform and two spectra take for each cell of the circle.
   real(dp), parameter :: LINE_BYTES = 64.0_dp
 
   !> What several ranks need for products.
-  type :: shared_parts
+  type :: shared_products
     type(line_transform) :: transform
     type(line_kernel) :: influence, inverse
-  end type shared_parts
+  end type shared_products
 
   !> What one rank needs for products, if it has all cells.
-  type :: whole_parts
+  type :: whole_products
     type(fft_plan) :: plan
     type(convolution_kernel) :: influence, inverse
-  end type whole_parts
+  end type whole_products
 
   !> Equal cells side by side on a half-plane, which ranks share: call `set` on all ranks of a communicator, then solve
   !> on all of them; `own_rows` says which cells the gaps and the forces of a rank are those of.
@@ -44,15 +44,15 @@ module fuge_line_halfplane
     !> No cells before `set`.
     type(halfplane_line) :: line
     !> The first and the last cell of this rank.
-    integer :: own(2) = [1, 0]
+    integer :: owned_cells(2) = [1, 0]
     !> Subtracted from all coefficients; length per force.
     real(dp) :: datum_value = 0.0_dp
     !> The ranks that have cells.
-    type(rank_communicator) :: part
+    type(rank_communicator) :: holders
     !> Of these one is associated, on ranks that have cells.
-    type(shared_parts), pointer :: shared => null()
-    type(whole_parts), pointer :: whole => null()
-    !> Address of the variable that owns the parts.
+    type(shared_products), pointer :: shared => null()
+    type(whole_products), pointer :: whole => null()
+    !> Address of the variable that owns them.
     type(c_ptr) :: owner = c_null_ptr
   contains
     procedure :: set
@@ -121,7 +121,7 @@ contains
     if (info%failed()) return
     me = operator%group%number()
     first = first_cells(operator%line%cells, length, operator%group%members())
-    if (first(me + 1) > first(me)) operator%own = [first(me), first(me + 1) - 1]
+    if (first(me + 1) > first(me)) operator%owned_cells = [first(me), first(me + 1) - 1]
     active = active_ranks(operator%line%cells, length, operator%group%members())
     here = members_here(operator%group, active)
     if (me < active) call check_memory(LINE_BYTES*real(length, dp)*real(here, dp)/real(active, dp), &
@@ -132,7 +132,7 @@ contains
     call require_memory(stat, 'an operator', info)
     call operator%group%agree(info)
     if (info%failed()) return
-    if (active > 1) call split_communicator(operator%group, active, operator%part)
+    if (active > 1) call split_communicator(operator%group, active, operator%holders)
     if (associated(operator%shared)) then
       call prepare_shared(operator, length, operator%shared, info)
     else if (associated(operator%whole)) then
@@ -151,21 +151,21 @@ contains
   subroutine prepare_shared(operator, length, shared, info)
     type(fuge_mpi_halfplane_operator), intent(inout) :: operator
     integer, intent(in) :: length
-    type(shared_parts), intent(inout) :: shared
+    type(shared_products), intent(inout) :: shared
     type(fuge_info), intent(inout) :: info
 
-    call shared%transform%set(operator%part, operator%line%cells, length, operator%group%members(), &
+    call shared%transform%set(operator%holders, operator%line%cells, length, operator%group%members(), &
                               operator%measured, info)
-    call operator%part%agree(info)
-    if (.not. info%failed()) call compute_kernels(operator%line, operator%part, shared%transform, shared%influence, &
-                                                  shared%inverse, operator%datum_value, info)
+    call operator%holders%agree(info)
+    if (.not. info%failed()) call compute_kernels(operator%line, operator%holders, shared%transform, &
+                                                  shared%influence, shared%inverse, operator%datum_value, info)
   end subroutine prepare_shared
 
   !> What the only rank that has cells needs. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
   subroutine prepare_whole(operator, length, whole, info)
     type(fuge_mpi_halfplane_operator), intent(inout) :: operator
     integer, intent(in) :: length
-    type(whole_parts), intent(inout) :: whole
+    type(whole_products), intent(inout) :: whole
     type(fuge_info), intent(inout) :: info
 
     call whole%plan%set(length, info, measured=operator%measured)
@@ -182,9 +182,9 @@ contains
     call self%take_group(new)
     self%measured = new%measured
     self%line = new%line
-    self%own = new%own
+    self%owned_cells = new%owned_cells
     self%datum_value = new%datum_value
-    self%part = new%part
+    self%holders = new%holders
     self%shared => new%shared
     self%whole => new%whole
     call self%take_coarser(new)
@@ -204,13 +204,13 @@ contains
         deallocate (self%shared)
       end if
       if (associated(self%whole)) deallocate (self%whole)
-      call free_communicator(self%part)
+      call free_communicator(self%holders)
     end if
-    self%part = rank_communicator()
+    self%holders = rank_communicator()
     nullify (self%shared, self%whole)
     self%owner = c_null_ptr
     self%line%cells = 0
-    self%own = [1, 0]
+    self%owned_cells = [1, 0]
     call self%leave()
   end subroutine free
 
@@ -240,7 +240,7 @@ contains
     class(fuge_mpi_halfplane_operator), intent(in) :: self
     integer :: rows(2)
 
-    rows = self%own
+    rows = self%owned_cells
   end function own_rows
 
   !> Number of cells of this rank; 0 before `set`, and where it has none.
@@ -248,7 +248,7 @@ contains
     class(fuge_mpi_halfplane_operator), intent(in) :: self
     integer :: n
 
-    n = self%own(2) - self%own(1) + 1
+    n = self%owned_cells(2) - self%owned_cells(1) + 1
   end function points
 
   !> u = (A - datum) f, as that of `fuge_halfplane_operator`; `force` and `displacement` (points of this rank). All

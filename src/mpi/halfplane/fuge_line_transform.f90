@@ -6,7 +6,7 @@
 !> of all columns; and transform these lines, which gives the wave k + n l as the number l of line k. On the way back
 !> real and imaginary parts are exchanged: then the same transforms and the same factors serve.
 !>
-!> `twisted`: whatever goes once round the circle counts nothing, as on a circle of twice the length that holds N
+!> `twisted`: what has gone once round the circle does not count, as on a circle of twice the length that holds N
 !> zeros. The cells are multiplied by exp(-i pi j/(2 N)) and the results by the conjugate: once round is a factor -i,
 !> and only the real part is kept.
 module fuge_line_transform

@@ -25,7 +25,7 @@ module fuge_slab_convolution
     real(dp), allocatable :: spectrum(:, :)
     type(slab_exchange), private :: exchange
   contains
-    procedure :: place
+    procedure :: locate
     procedure :: set
     procedure :: convolve
     procedure :: free
@@ -34,7 +34,7 @@ module fuge_slab_convolution
 contains
 
   !> Find the waves of this rank, on circles that are `padded` (2) or not.
-  subroutine place(self, plan, padded)
+  subroutine locate(self, plan, padded)
     class(slab_kernel), intent(inout) :: self
     type(slab_plan), intent(in) :: plan
     logical, intent(in) :: padded(2)
@@ -46,9 +46,9 @@ contains
     self%all_waves = stored_waves(plan%plan%length(1), padded(1))
     self%first = range(1)
     self%waves = range(2)
-  end subroutine place
+  end subroutine locate
 
-  !> Take the `spectrum` (0:my, 0:waves - 1) of this rank's waves; after `place`. `status` is not 0 without memory.
+  !> Take the `spectrum` (0:my, 0:waves - 1) of this rank's waves; after `locate`. `status` is not 0 without memory.
   subroutine set(self, plan, spectrum, status)
     class(slab_kernel), intent(inout) :: self
     type(slab_plan), intent(in) :: plan
@@ -100,7 +100,7 @@ contains
     real(c_double), intent(inout), contiguous, target :: lines(:, :)
     logical :: zero
 
-    call pack_rows(plan%plan%cells(1), plan%plan%length(1), 2*p <= plan%rows, p, x, lines(:, 1), zero)
+    call pack_rows(plan%plan%cells(1), plan%plan%length(1), 2*p <= plan%owned_rows, p, x, lines(:, 1), zero)
     if (zero) then
       call clear_pair(kernel, plan, p)
       return
@@ -274,7 +274,7 @@ contains
     do j = 1, nx
       y(first + j) = lines(2*j, 1)
     end do
-    if (2*p > plan%rows) return
+    if (2*p > plan%owned_rows) return
     do j = 1, nx
       y(first + nx + j) = lines(2*j - 1, 1)
     end do

@@ -6,13 +6,13 @@
 module fuge_slab_exchange
   use, intrinsic :: iso_c_binding, only: c_double, c_intptr_t
   use fuge_rank_communicator, only: rank_communicator
-  use mpi_f08, only: MPI_Comm, MPI_Irecv, MPI_Isend, MPI_Request, MPI_Testall, MPI_Waitall, MPI_DOUBLE_PRECISION, &
+  use mpi_f08, only: MPI_Irecv, MPI_Isend, MPI_Request, MPI_Testall, MPI_Waitall, MPI_DOUBLE_PRECISION, &
     MPI_STATUSES_IGNORE
   implicit none
   private
 
-  !> A message has about so many numbers at most: few enough that some travel while the next rows are computed, so many
-  !> that its latency does not matter.
+  !> Numbers of a message, at most and about: few enough that some messages travel while the next rows are computed,
+  !> and enough that their latency does not matter.
   integer, parameter :: MESSAGE = 131072
 
   !> Describe it, set it, then exchange any number of times: `begin_rows`, `send_row` for each row in turn, `finish`;

@@ -11,7 +11,7 @@ module fuge_slab_files
   use fuge_shared_operator, only: shared_operator
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_FILE, FUGE_ERR_SIZE
   use mpi_f08, only: MPI_Bcast, MPI_File, MPI_File_close, MPI_File_open, MPI_File_read_at, MPI_File_read_at_all, &
-    MPI_File_set_size, MPI_File_set_view, MPI_File_write_at, MPI_File_write_at_all, MPI_Get_count, MPI_Status, &
+    MPI_File_set_size, MPI_File_write_at, MPI_File_write_at_all, MPI_Get_count, MPI_Status, &
     MPI_CHARACTER, MPI_DOUBLE_PRECISION, MPI_INFO_NULL, MPI_INTEGER, MPI_MODE_CREATE, MPI_MODE_RDONLY, &
     MPI_MODE_WRONLY, MPI_OFFSET_KIND, MPI_STATUS_IGNORE, MPI_SUCCESS
   implicit none
@@ -21,7 +21,7 @@ module fuge_slab_files
 
   !> Bytes of the header that is written.
   integer, parameter :: HEADER = 128
-  !> Bytes of a header that is read, at most.
+  !> Most bytes of a header that is read.
   integer, parameter :: LONGEST_HEADER = 1024
   !> The first bytes of a file: 147 and the name, then the version and the length of the text.
   integer, parameter :: FIRST_BYTE = 147
@@ -62,7 +62,7 @@ contains
     call read_header(path, file, operator, begin, info)
     call space%agree(info)
     if (.not. info%failed()) then
-      call MPI_File_read_at_all(file, place_of(operator, begin), rows, size(rows), MPI_DOUBLE_PRECISION, status, error)
+      call MPI_File_read_at_all(file, offset_of(operator, begin), rows, size(rows), MPI_DOUBLE_PRECISION, status, error)
       count = -1
       if (error == MPI_SUCCESS) call MPI_Get_count(status, MPI_DOUBLE_PRECISION, count)
       if (count /= size(rows)) call report(info, FUGE_ERR_FILE, path//' ends too early')
@@ -106,7 +106,7 @@ contains
     if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be written')
     call space%agree(info)
     if (.not. info%failed()) then
-      call MPI_File_write_at_all(file, place_of(operator, HEADER), values, size(values), MPI_DOUBLE_PRECISION, &
+      call MPI_File_write_at_all(file, offset_of(operator, HEADER), values, size(values), MPI_DOUBLE_PRECISION, &
                                  MPI_STATUS_IGNORE, error)
       if (error /= MPI_SUCCESS) call report(info, FUGE_ERR_FILE, path//' cannot be written: is the disk full?')
       call space%agree(info)
@@ -151,16 +151,16 @@ contains
   end subroutine require_grid
 
   !> Where the rows of this rank begin in a file whose numbers begin at byte `begin`.
-  function place_of(operator, begin) result(place)
+  function offset_of(operator, begin) result(offset)
     class(shared_operator), intent(in) :: operator
     integer, intent(in) :: begin
-    integer(MPI_OFFSET_KIND) :: place
+    integer(MPI_OFFSET_KIND) :: offset
     integer :: cells(2), rows(2)
 
     cells = operator%grid()
     rows = operator%own_rows()
-    place = begin + 8_MPI_OFFSET_KIND*cells(1)*(rows(1) - 1)
-  end function place_of
+    offset = begin + 8_MPI_OFFSET_KIND*cells(1)*(rows(1) - 1)
+  end function offset_of
 
   !> How numpy calls the real numbers of this machine.
   pure function number_type() result(name)

@@ -9,7 +9,7 @@ module fuge_slab_halfspace
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
   use fuge_shared_operator, only: owns, shared_operator
-  use fuge_slab_parts, only: prepare_parts, slab_parts
+  use fuge_slab_products, only: prepare_products, slab_products
   use fuge_slab_rows, only: rows_of_ranks => first_rows
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED
   use mpi_f08, only: MPI_Comm
@@ -26,8 +26,8 @@ module fuge_slab_halfspace
     !> No cells before `set`.
     type(halfspace_grid) :: surface
     !> What products need.
-    type(slab_parts), pointer :: parts => null()
-    !> Address of the variable that owns the parts.
+    type(slab_products), pointer :: products => null()
+    !> Address of the variable that owns the products.
     type(c_ptr) :: owner = c_null_ptr
   contains
     procedure :: set
@@ -98,12 +98,12 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
-    allocate (operator%parts, stat=stat)
+    allocate (operator%products, stat=stat)
     if (operator%agreed(stat)) then
       operator%owner = c_loc(operator%measured)
-      call prepare_parts(operator%parts, operator%surface, operator%group, operator%measured, info)
+      call prepare_products(operator%products, operator%surface, operator%group, operator%measured, info)
     else
-      if (stat == 0) deallocate (operator%parts)
+      if (stat == 0) deallocate (operator%products)
       call report(info, FUGE_ERR_MEMORY, 'no memory for an operator')
     end if
     if (.not. info%failed()) call operator%make_room(count_coarser(operator%surface))
@@ -118,11 +118,11 @@ contains
     self%surface = new%surface
     self%measured = new%measured
     call self%take_group(new)
-    self%parts => new%parts
+    self%products => new%products
     call self%take_coarser(new)
     self%owner = c_loc(self%measured)
     new%owner = c_null_ptr
-    nullify (new%parts)
+    nullify (new%products)
     call new%free()
   end subroutine move_contents
 
@@ -132,10 +132,10 @@ contains
 
     call self%drop_coarser()
     if (owns(self%owner, c_loc(self%measured))) then
-      call self%parts%free()
-      deallocate (self%parts)
+      call self%products%free()
+      deallocate (self%products)
     end if
-    nullify (self%parts)
+    nullify (self%products)
     self%owner = c_null_ptr
     self%surface%cells = 0
     call self%leave()
@@ -194,7 +194,7 @@ contains
     integer, intent(out) :: status
 
     call self%check_sizes(size(force), size(displacement), status)
-    if (status == FUGE_DONE) call self%parts%multiply(force, displacement, status)
+    if (status == FUGE_DONE) call self%products%multiply(force, displacement, status)
   end subroutine apply
 
   !> As that of `fuge_halfspace_operator`.
@@ -217,7 +217,7 @@ contains
     integer, intent(out) :: status
 
     call self%check_sizes(size(displacement), size(force), status)
-    if (status == FUGE_DONE) call self%parts%precondition(displacement, force, status)
+    if (status == FUGE_DONE) call self%products%precondition(displacement, force, status)
   end subroutine precondition
 
   !> [nx, ny] of the whole grid.

@@ -7,14 +7,13 @@ module fuge_slab_plan
   use fuge_rank_communicator, only: rank_communicator
   use fuge_slab_exchange, only: slab_exchange
   use fuge_slab_rows, only: block_of_pairs, block_of_waves
-  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
   public :: COLUMNS, NUMBERS
 
-  !> Columns that are convolved one after the other, so that each visit to a row of them reads some cache lines as a
-  !> whole.
+  !> Columns that are convolved together, so that a row of them fills whole lines of the cache.
   integer, parameter :: COLUMNS = 8
   !> Real numbers of an element of an exchange: one wave of both rows of a pair.
   integer, parameter :: NUMBERS = 4
@@ -28,7 +27,7 @@ module fuge_slab_plan
     !> The ranks that have rows.
     type(rank_communicator) :: group
     !> Pairs of rows of all ranks, in a block, and of this rank; its rows.
-    integer :: all_pairs = 0, block = 0, pairs = 0, rows = 0
+    integer :: all_pairs = 0, block = 0, pairs = 0, owned_rows = 0
     !> Transforms of the pairs of rows of this rank, for the other ranks, and of all pairs, the waves of this rank.
     real(c_double), pointer, contiguous :: by_rows(:) => null(), by_columns(:) => null()
     !> Columns, and two lines for work.
@@ -60,7 +59,7 @@ contains
     self%all_pairs = (cells(2) + 1)/2
     self%block = block_of_pairs(cells, ranks)
     self%pairs = max(min(self%block, self%all_pairs - group%number()*self%block), 0)
-    self%rows = min(2*self%pairs, cells(2) - 2*group%number()*self%block)
+    self%owned_rows = min(2*self%pairs, cells(2) - 2*group%number()*self%block)
     most = 1
     do k = 1, 2
       ! Those of a product, and those of the preconditioner.
@@ -71,8 +70,7 @@ contains
     call allocate_line(most(2), self%memory(2), self%by_columns, status(2))
     call allocate_values(2*max(maxval(length), 2*self%all_pairs) + 2, COLUMNS + 2, self%memory(3), self%lines, &
                          status(3))
-    if (any(status /= 0)) call report(info, FUGE_ERR_MEMORY, 'no memory for transforms of '//text(length(1))//' by ' &
-                                      //text(length(2))//' values')
+    call require_memory(maxval(abs(status)), 'transforms of '//text(length(1))//' by', length(2), 'values', info)
   end subroutine set
 
   !> The exchange of a product whose circle along x is `padded` or not.

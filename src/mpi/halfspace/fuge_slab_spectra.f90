@@ -1,5 +1,5 @@
 !> The spectra of the influence operator of a grid whose rows ranks share, and of its preconditioner: as by
-!> fuge_halfspace_spectra, but a rank computes only a part of the table, and keeps only its waves.
+!> fuge_halfspace_spectra, but a rank computes only some rows of the table, and keeps only its waves.
 module fuge_slab_spectra
   use, intrinsic :: iso_c_binding, only: c_double, c_intptr_t
   use fuge_halfplane_fft, only: FUGE_FREE
@@ -32,7 +32,7 @@ contains
     real(dp), allocatable :: spectrum(:, :)
     integer :: status
 
-    call inverse%place(plan, [.false., .false.])
+    call inverse%locate(plan, [.false., .false.])
     call fill_columns(plan%plan%length, grid, plan, inverse, spectrum, info)
     if (info%failed()) return
     call invert_columns(inverse%first, grid%e_star*sqrt(product(grid%spacing)), spectrum)
@@ -40,7 +40,7 @@ contains
     if (status /= 0) call report_no_memory(plan, info)
     call plan%group%agree(info)
     if (info%failed()) return
-    call influence%place(plan, padded)
+    call influence%locate(plan, padded)
     if (all(cyclic(grid))) then
       call fill_columns(grid%period, grid, plan, influence, spectrum, info)
     else

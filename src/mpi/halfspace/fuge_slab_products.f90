@@ -1,5 +1,5 @@
 !> What a rank needs for products of a surface that ranks share: as one of several, or as the only one that has rows.
-module fuge_slab_parts
+module fuge_slab_products
   use fuge_grid_convolution, only: grid_kernel
   use fuge_grid_plan, only: grid_plan
   use fuge_halfspace_grid, only: circle_of, cyclic, halfspace_grid
@@ -16,40 +16,40 @@ module fuge_slab_parts
   implicit none
   private
 
-  public :: prepare_parts
+  public :: prepare_products
 
   !> One of several ranks.
-  type :: shared_parts
+  type :: shared_products
     type(slab_plan) :: plan
     type(slab_kernel) :: influence, inverse
-  end type shared_parts
+  end type shared_products
 
   !> The only one.
-  type :: whole_parts
+  type :: whole_products
     type(grid_plan) :: plan
     type(grid_kernel) :: influence, inverse
-  end type whole_parts
+  end type whole_products
 
   !> It must not be copied.
-  type, public :: slab_parts
+  type, public :: slab_products
     private
     !> The ranks that have rows.
-    type(rank_communicator) :: part
+    type(rank_communicator) :: holders
     !> Of these one is associated, on ranks that have rows.
-    type(shared_parts), pointer :: shared => null()
-    type(whole_parts), pointer :: whole => null()
+    type(shared_products), pointer :: shared => null()
+    type(whole_products), pointer :: whole => null()
   contains
     procedure :: multiply
     procedure :: precondition
     procedure :: free
-  end type slab_parts
+  end type slab_products
 
 contains
 
   !> Plan and compute what belongs to the cells of `surface`. All ranks of `group` call it. Errors, on all of them:
   !> FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
-  subroutine prepare_parts(parts, surface, group, measured, info)
-    type(slab_parts), intent(inout) :: parts
+  subroutine prepare_products(products, surface, group, measured, info)
+    type(slab_products), intent(inout) :: products
     type(halfspace_grid), intent(in) :: surface
     type(rank_communicator), intent(in) :: group
     logical, intent(in) :: measured
@@ -65,37 +65,37 @@ contains
       call check_memory(bytes_needed(surface, length)*real(here, dp)/real(active, dp), &
                         'the part of the ranks on this machine', info)
       if (active > 1) then
-        allocate (parts%shared, stat=stat)
+        allocate (products%shared, stat=stat)
       else
-        allocate (parts%whole, stat=stat)
+        allocate (products%whole, stat=stat)
       end if
       call require_memory(stat, 'an operator', info)
     end if
     call group%agree(info)
     if (info%failed()) return
-    if (active > 1) call split_communicator(group, active, parts%part)
-    if (associated(parts%shared)) then
-      call prepare_shared(surface, length, parts%part, group%members(), measured, parts%shared, info)
-    else if (associated(parts%whole)) then
-      call prepare_whole(surface, length, measured, parts%whole, info)
+    if (active > 1) call split_communicator(group, active, products%holders)
+    if (associated(products%shared)) then
+      call prepare_shared(surface, length, products%holders, group%members(), measured, products%shared, info)
+    else if (associated(products%whole)) then
+      call prepare_whole(surface, length, measured, products%whole, info)
     end if
     call group%agree(info)
-  end subroutine prepare_parts
+  end subroutine prepare_products
 
-  !> What one of several ranks needs, of the `ranks` on which the rows are laid out, those of `part` have any. Errors,
-  !> on all these: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
-  subroutine prepare_shared(surface, length, part, ranks, measured, shared, info)
+  !> What one of several ranks needs, of the `ranks` on which the rows are laid out, `holders` have any. Errors, on
+  !> all these: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  subroutine prepare_shared(surface, length, holders, ranks, measured, shared, info)
     type(halfspace_grid), intent(in) :: surface
     integer, intent(in) :: length(2), ranks
-    type(rank_communicator), intent(in) :: part
+    type(rank_communicator), intent(in) :: holders
     logical, intent(in) :: measured
-    type(shared_parts), intent(inout) :: shared
+    type(shared_products), intent(inout) :: shared
     type(fuge_info), intent(inout) :: info
     logical :: padded(2)
 
     padded = .not. cyclic(surface) .and. surface%cells > 1
-    call shared%plan%set(part, surface%cells, length, padded, ranks, measured, info)
-    call part%agree(info)
+    call shared%plan%set(holders, surface%cells, length, padded, ranks, measured, info)
+    call holders%agree(info)
     if (.not. info%failed()) call compute_slab_spectra(surface, shared%plan, padded, shared%influence, shared%inverse, &
                                                        info)
   end subroutine prepare_shared
@@ -105,7 +105,7 @@ contains
     type(halfspace_grid), intent(in) :: surface
     integer, intent(in) :: length(2)
     logical, intent(in) :: measured
-    type(whole_parts), intent(inout) :: whole
+    type(whole_products), intent(inout) :: whole
     type(fuge_info), intent(inout) :: info
     real(dp) :: datum
     integer :: status
@@ -120,7 +120,7 @@ contains
 
   !> u = A f, both of the points of this rank. `status`: 0 or FUGE_ERR_MEMORY.
   subroutine multiply(self, force, displacement, status)
-    class(slab_parts), intent(in) :: self
+    class(slab_products), intent(in) :: self
     real(dp), intent(in) :: force(:)
     real(dp), intent(inout) :: displacement(:)
     integer, intent(out) :: status
@@ -135,7 +135,7 @@ contains
 
   !> The preconditioner, both of the points of this rank. `status` as for `multiply`.
   subroutine precondition(self, displacement, force, status)
-    class(slab_parts), intent(in) :: self
+    class(slab_products), intent(in) :: self
     real(dp), intent(in) :: displacement(:)
     real(dp), intent(inout) :: force(:)
     integer, intent(out) :: status
@@ -150,7 +150,7 @@ contains
 
   !> Free what they own; all ranks call it.
   subroutine free(self)
-    class(slab_parts), intent(inout) :: self
+    class(slab_products), intent(inout) :: self
 
     if (associated(self%shared)) then
       call self%shared%influence%free()
@@ -159,7 +159,7 @@ contains
       deallocate (self%shared)
     end if
     if (associated(self%whole)) deallocate (self%whole)
-    call free_communicator(self%part)
+    call free_communicator(self%holders)
   end subroutine free
 
-end module fuge_slab_parts
+end module fuge_slab_products

@@ -6,23 +6,15 @@
 #include <unistd.h>
 #endif
 #include <limits.h>
-#include "check.h"
+#include "scratch.h"
 
 static const char *const NAME = "api_matrices_scratch.mtx";
-
-static void write_file(const char *content) {
-  FILE *file = fopen(NAME, "wb");
-  CHECK(file != NULL);
-  if (file == NULL) return;
-  fputs(content, file);
-  fclose(file);
-}
 
 static void test_read_matrix(void) {
   double matrix[9];
   int rows = -1, columns = -1;
   char message[256] = "old";
-  write_file("%%MatrixMarket matrix array real general\n3 2\n1\n2\n3\n4\n5\n6\n");
+  write_file(NAME, "%%MatrixMarket matrix array real general\n3 2\n1\n2\n3\n4\n5\n6\n");
   CHECK_MESSAGE(fuge_read_matrix(NAME, 0, 0, NULL, &rows, &columns, message, sizeof message), FUGE_DONE, message, "");
   CHECK_INT(rows, 3);
   CHECK_INT(columns, 2);
@@ -49,7 +41,7 @@ static void test_read_refusals(void) {
   char message[256] = "";
   fill(matrix, 4);
   fill(value, 4);
-  write_file("%%MatrixMarket matrix coordinate real general\n2 2 1\n3 1 1\n");
+  write_file(NAME, "%%MatrixMarket matrix coordinate real general\n2 2 1\n3 1 1\n");
   CHECK_STATUS(fuge_read_matrix(NAME, 2, 2, matrix, &rows, &columns, message, sizeof message), FUGE_ERR_FILE);
   CHECK_STRING(message, "\"api_matrices_scratch.mtx\", line 3: row \"3\" is outside 1 .. 2");
   message[0] = '\0';

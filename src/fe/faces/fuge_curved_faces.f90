@@ -1,6 +1,6 @@
-!> The smooth surface that a face stands for, and gaps between two of them.
+!> The curved surface that a face stands for, and gaps between two of them.
 !>
-!> With shape functions N_i, nodes x_i and unit normals n_i of the smooth surface there, x = sum N_i x_i the place on
+!> With shape functions N_i, nodes x_i and unit normals n_i of the curved surface there, x = sum N_i x_i the place on
 !> the face and n = sum N_i n_i, the surface is
 !>
 !>     x + h n/|n|,   h = (sum N_i (x_i - x).n_i)/(1 + |n|)
@@ -11,25 +11,25 @@
 !> that are no part of a sphere have a cubic term in addition, so that along each side the surface has the slopes that
 !> the normals demand (Hermite's interpolation); n/|n| stands across it in the nodes only, and so the normal is that of
 !> its tangents.
-module fuge_smooth_faces
+module fuge_curved_faces
   use fuge_face_geometry, only: cross, face_nodes, frame_across, solve_step
   use fuge_face_shapes, only: corner_count, shape_slopes, shape_values, EDGE_3, MOST_NODES
   use fuge_kinds, only: dp
   implicit none
   private
 
-  public :: find_opposite, smooth_gap, smooth_point, smooth_weights
+  public :: curved_gap, curved_point, curved_weights, find_opposite
 
   !> Steps of Newton's iteration for a point across, from the one across on the face itself.
   integer, parameter :: STEPS = 4
-  !> A place moves by at most this on the way: faces are as close to their smooth surfaces.
+  !> A place moves by at most this on the way: faces are as close to their curved surfaces.
   real(dp), parameter :: FAR = 0.25_dp
 
 contains
 
-  !> The position of a place on the smooth surface, and its normal there, outwards; the length of this is the area, or
+  !> The position of a place on the curved surface, and its normal there, outwards; the length of this is the area, or
   !> length, per area of the places.
-  pure subroutine smooth_point(face, place, position, normal)
+  pure subroutine curved_point(face, place, position, normal)
     type(face_nodes), intent(in) :: face
     real(dp), intent(in) :: place(2)
     real(dp), intent(out) :: position(3), normal(3)
@@ -41,9 +41,9 @@ contains
     else
       normal = cross(tangent(:, 1), tangent(:, 2))
     end if
-  end subroutine smooth_point
+  end subroutine curved_point
 
-  !> The position of a place on the smooth surface, and its derivatives with respect to the place.
+  !> The position of a place on the curved surface, and its derivatives with respect to the place.
   pure subroutine span_point(face, place, position, tangent)
     type(face_nodes), intent(in) :: face
     real(dp), intent(in) :: place(2)
@@ -79,7 +79,7 @@ contains
   end subroutine span_point
 
   !> Move `place`, where the line through `point` along a unit `direction` hits the face itself, to where it hits the
-  !> smooth surface; left alone where Newton's iteration leads further off than faces are from their smooth surfaces.
+  !> curved surface; left alone where Newton's iteration leads further off than faces are from their curved surfaces.
   !>
   !> With contact points that are exactly across from each other, forces have no moment about the centre of a shaft.
   pure subroutine find_opposite(face, point, direction, place)
@@ -106,13 +106,13 @@ contains
     place = next
   end subroutine find_opposite
 
-  !> How a place on the smooth surface moves along `direction` as the nodes move: a vector of weights for each, (3,
+  !> How a place on the curved surface moves along `direction` as the nodes move: a vector of weights for each, (3,
   !> nodes).
   !>
   !> The position above with displacements for positions, and normals that stay: a translation moves it along; an even
   !> expansion of a circle, a sphere or a cylinder moves all places outwards evenly, as interpolated displacements do
   !> not; a rotation about its centre moves none across.
-  pure function smooth_weights(face, place, direction) result(weights)
+  pure function curved_weights(face, place, direction) result(weights)
     type(face_nodes), intent(in) :: face
     real(dp), intent(in) :: place(2), direction(3)
     real(dp) :: weights(3, MOST_NODES), mean(3), size, values(MOST_NODES)
@@ -126,7 +126,7 @@ contains
       weights(:, i) = values(i)*(direction + (face%normal(:, i) - mean)*(dot_product(mean, direction)/size &
                                                                           /(1.0_dp + size)))
     end do
-  end function smooth_weights
+  end function curved_weights
 
   !> The cubic part of the height of a linear face, or of an edge: where the normals at both ends of a side lean to the
   !> same side.
@@ -164,12 +164,12 @@ contains
     end do
   end function turn_slope
 
-  !> The gap between two smooth surfaces from a point on each, `way` apart, and the unit normals there: the mean of the
+  !> The gap between two curved surfaces from a point on each, `way` apart, and the unit normals there: the mean of the
   !> ways to the tangents along the bisector of the normals.
   !>
   !> Between two circles, cylinders or spheres about one centre it is the difference of the radii, although the points
   !> are not quite across from each other.
-  pure function smooth_gap(way, normal, opposite) result(gap)
+  pure function curved_gap(way, normal, opposite) result(gap)
     real(dp), intent(in) :: way(3), normal(3), opposite(3)
     real(dp) :: gap, cosine
 
@@ -179,6 +179,6 @@ contains
     else
       gap = dot_product(way, normal)
     end if
-  end function smooth_gap
+  end function curved_gap
 
-end module fuge_smooth_faces
+end module fuge_curved_faces

@@ -1,16 +1,8 @@
 /* Section "surfaces" of fuge_files.h. */
 #include <stdlib.h>
-#include "check.h"
+#include "scratch.h"
 
 static const char *const NAME = "api_surfaces_scratch.txt";
-
-static void write_file(const char *content) {
-  FILE *file = fopen(NAME, "wb");
-  CHECK(file != NULL);
-  if (file == NULL) return;
-  fputs(content, file);
-  fclose(file);
-}
 
 /* The bytes of the file, ended by NUL; their number.  The caller frees them. */
 static char *read_file(size_t *length) {
@@ -28,7 +20,7 @@ static void test_read(void) {
   double height[6], spacing[2], origin[2];
   int nx = -1, ny = -1, filled = -1;
   char message[256] = "old";
-  write_file("# made by hand\n1 2 4\n8 16 nan\n");
+  write_file(NAME, "# made by hand\n1 2 4\n8 16 nan\n");
   CHECK_MESSAGE(fuge_read_surface(NAME, FUGE_FILE_GRID, 1, 6, height, &nx, &ny, spacing, origin, &filled, message,
                                   sizeof message), FUGE_DONE, message, "");
   CHECK_INT(nx, 3);
@@ -40,7 +32,7 @@ static void test_read(void) {
   CHECK_NEAR(spacing[0], 0.0, 0.0);
   CHECK_NEAR(origin[1], 0.0, 0.0);
   fill(height, 6);
-  write_file("10 5 1\n12 5 2\n12 6 4\n10 6 3\n10 7 5\n12 7 6\n");
+  write_file(NAME, "10 5 1\n12 5 2\n12 6 4\n10 6 3\n10 7 5\n12 7 6\n");
   CHECK_DONE(fuge_read_surface(NAME, FUGE_FILE_ANY, 0, 4, height, &nx, &ny, spacing, origin, NULL, NULL, 0));
   CHECK_INT(nx, 2);
   CHECK_INT(ny, 3);
@@ -61,7 +53,7 @@ static void test_read_refusals(void) {
   int nx = -1, ny = -1;
   char message[256] = "";
   fill(height, 4);
-  write_file("1 2\n3\n");
+  write_file(NAME, "1 2\n3\n");
   CHECK_MESSAGE(fuge_read_surface(NAME, 0, 0, 4, height, &nx, &ny, NULL, NULL, NULL, message, sizeof message),
                 FUGE_ERR_FILE, message, "\"api_surfaces_scratch.txt\", line 2: 1 value(s), but the first row has 2");
   CHECK_STATUS(fuge_read_surface(NAME, 9, 0, 4, height, &nx, &ny, NULL, NULL, NULL, NULL, 0), FUGE_ERR_OPTION);

@@ -1,8 +1,8 @@
-!> Normals of the smooth surface that a mesh stands for, at the nodes of each face.
+!> Normals of the curved surface that a mesh stands for, at the nodes of each face.
 !>
 !> Each face has normals of its own: at an edge of the body, where faces meet at more than a crease angle, they differ
 !> from those of its neighbour, so that the edge stays sharp.
-module fuge_smooth_normals
+module fuge_curved_normals
   use fuge_corner_normals, only: corner_normal, half_edge_normal, middle_edge_normal, reflected, side_tangent
   use fuge_face_geometry, only: cross, face_nodes, face_normal, frame_across, unit
   use fuge_face_shapes, only: corner_count, node_place, side_ends, EDGE_3
@@ -11,24 +11,25 @@ module fuge_smooth_normals
   implicit none
   private
 
-  public :: find_smooth_normals, mean_of_faces
+  public :: find_curved_normals, mean_of_faces
 
-  !> Rounding of the cosine of an angle between faces.
+  !> Rounding error of the cosine of an angle between faces.
   real(dp), parameter :: ROUNDING = 16.0_dp*epsilon(1.0_dp)
-  !> A side leads away from the border of the surface if this part of it is across the border.
+  !> A side leads away from the border of the surface if at least this fraction of its length is across the border.
   real(dp), parameter :: AWAY = 0.3_dp
-  !> The sum of two unit vectors along the border, away from each other, beyond which it is no corner: 120 degrees.
+  !> Length of the sum of two unit vectors along the border, away from each other, above which it has no corner there:
+  !> an angle of 120 degrees.
   real(dp), parameter :: ALONG = 1.73_dp
   !> Steps of the Gauss-Newton iteration for a normal at the border.
   integer, parameter :: STEPS = 8
-  !> A smaller eigenvalue than this part of the other one does not determine a direction.
+  !> An eigenvalue below this fraction of the other one determines no direction.
   real(dp), parameter :: SMALL = 0.1_dp
-  !> A sum of unit normals shorter than this points nowhere.
+  !> A sum of unit normals shorter than this has no direction.
   real(dp), parameter :: NO_DIRECTION = 1.0e-8_dp
 
   !> Stages in which normals at the border are found: from inside, along the border, at its corners.
   integer, parameter :: INSIDE = 1, BORDER = 2, AT_CORNERS = 3
-  !> Most sides that are taken into account there.
+  !> Most sides from which a normal at the border is found.
   integer, parameter :: MOST_SIDES = 32
 
   !> The faces around each node: those of node i, and its place in them, are entries begin(i) to begin(i + 1) - 1.
@@ -38,7 +39,7 @@ module fuge_smooth_normals
 
   !> For each corner of each face, (3, most nodes of a face, faces).
   type :: corner_data
-    !> The normal of the face there, weighted, and the unit normal of the smooth surface.
+    !> The normal of the face there, weighted, and the unit normal of the curved surface.
     real(dp), allocatable :: own(:, :, :), normal(:, :, :)
     !> The two sides at the border of the surface, pointing away from each other: sum of their unit vectors, and of
     !> their tangents (`side_tangent`); zero inside.
@@ -51,7 +52,7 @@ contains
 
   !> Unit normals, (3, most nodes of a face, faces). `crease`: angle in degrees beyond which faces meet at an edge of
   !> the body. `stat` is not zero without memory.
-  pure subroutine find_smooth_normals(surface, crease, normal, stat)
+  pure subroutine find_curved_normals(surface, crease, normal, stat)
     type(fuge_surface_mesh), intent(in) :: surface
     real(dp), intent(in) :: crease
     real(dp), intent(out) :: normal(:, :, :)
@@ -81,7 +82,7 @@ contains
     do f = 1, size(surface%face, 2)
       call add_middle_normals(get_face(surface, f), normal(:, :, f))
     end do
-  end subroutine find_smooth_normals
+  end subroutine find_curved_normals
 
   !> The mean of the normals of the faces at each node, (3, nodes), of unit length; left alone where there is none.
   pure subroutine mean_of_faces(surface, face_normals, normal, stat)
@@ -382,4 +383,4 @@ contains
     if (face%kind == EDGE_3) normal(:, 3) = unit(normal(:, 3) + unit(middle_edge_normal(face)))
   end subroutine add_middle_normals
 
-end module fuge_smooth_normals
+end module fuge_curved_normals

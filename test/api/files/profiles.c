@@ -1,21 +1,13 @@
 /* Section "profiles" of fuge_files.h. */
-#include "check.h"
+#include "scratch.h"
 
 static const char *const NAME = "api_profiles_scratch.txt";
-
-static void write_file(const char *content) {
-  FILE *file = fopen(NAME, "wb");
-  CHECK(file != NULL);
-  if (file == NULL) return;
-  fputs(content, file);
-  fclose(file);
-}
 
 static void test_read(void) {
   double x[3], z[3];
   int count = -1;
   char message[256] = "old";
-  write_file("x z\n0 1\n1 2\n2 4\n");
+  write_file(NAME, "x z\n0 1\n1 2\n2 4\n");
   CHECK_MESSAGE(fuge_read_profile(NAME, 3, x, z, &count, message, sizeof message), FUGE_DONE, message, "");
   CHECK_INT(count, 3);
   CHECK_NEAR(x[2], 2.0, 0.0);
@@ -36,10 +28,10 @@ static void test_read_refusals(void) {
   char message[256] = "";
   fill(x, 2);
   fill(z, 2);
-  write_file("0 1\n1\n");
+  write_file(NAME, "0 1\n1\n");
   CHECK_STATUS(fuge_read_profile(NAME, 2, x, z, &count, message, sizeof message), FUGE_ERR_FILE);
   CHECK_STRING(message, "\"api_profiles_scratch.txt\", line 2: only one column: x and z are needed");
-  write_file("");
+  write_file(NAME, "");
   CHECK_STATUS(fuge_read_profile(NAME, 2, x, z, &count, message, sizeof message), FUGE_ERR_FILE);
   CHECK_STRING(message, "\"api_profiles_scratch.txt\": the file ends after 0 point(s): a profile needs 2 or more");
   remove(NAME);

@@ -347,8 +347,7 @@ static void test_warm_start(void) {
     gap[k] = x[k] * x[k];
   }
   CHECK_DONE(fuge_halfplane_matrix(N, x, width, 1.0, FUGE_CENTRE, 0, alpha, N, NULL, 0));
-  CHECK_DONE(fuge_operator_dense(N, alpha, N, &op, NULL, 0));
-  CHECK_DONE(fuge_solver_new(op, NULL, &solver, NULL, 0));
+  solver = new_solver(alpha, N, NULL, &op);
   CHECK_DONE(fuge_set_gap(solver, gap, NULL));
   CHECK_DONE(fuge_set_load(solver, 0.5));
   CHECK_DONE(fuge_solve(solver));

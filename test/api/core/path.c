@@ -71,9 +71,7 @@ static void test_derivative(void) {
   double force[2], gap[2], motion = -1.0;
   fuge_info info;
   fuge_operator *op = NULL;
-  fuge_solver *solver = NULL;
-  CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
-  CHECK_DONE(fuge_solver_new(op, NULL, &solver, NULL, 0));
+  fuge_solver *solver = new_solver(TABLE1_ALPHA, 2, NULL, &op);
   CHECK_DONE(fuge_set_gap(solver, TABLE1_GAP, NULL));
   CHECK_DONE(fuge_set_load(solver, 20.0));
   CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion), FUGE_ERR_CALL_ORDER);
@@ -154,9 +152,7 @@ static void test_follow_motions(void) {
   int entries = -1;
   char message[256] = "";
   fuge_operator *op = NULL;
-  fuge_solver *s = NULL;
-  CHECK_DONE(fuge_operator_dense(2, alpha, 2, &op, NULL, 0));
-  CHECK_DONE(fuge_solver_new(op, NULL, &s, NULL, 0));
+  fuge_solver *s = new_solver(alpha, 2, NULL, &op);
   CHECK_DONE(fuge_set_gap(s, gap, NULL));
   CHECK_DONE(fuge_set_modes(s, 2, modes, middle));
   CHECK_DONE(fuge_follow_path(s, right, MOST, NULL, motion, rate, NULL, NULL, NULL, &entries));

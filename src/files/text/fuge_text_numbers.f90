@@ -1,31 +1,37 @@
-!> Fields of a line of text, and the numbers in them.
+!> Numbers in text, and text in messages.
 !>
 !> Numbers are converted here, because formatted reads would take most of the time for a long
-!> file.
-module fuge_text_fields
+!> file. So would C's strtod, which takes two to three times as long for 17 digits: it rounds only those few numbers
+!> that lie too near to half-way between two doubles, or have large exponents.
+module fuge_text_numbers
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char, c_null_ptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_decimal_rounding, only: round_decimal, MOST_DIGITS
-  use fuge_exact_rounding, only: round_exactly, DECISIVE_DIGITS
   use fuge_kinds, only: dp
+  use fuge_number_text, only: text
   implicit none
   private
 
-  public :: after_blanks, describe_field, find_field, lower_case, quoted, read_number, read_whole
+  public :: describe_text, lower_case, quoted, read_number, read_whole
 
-  !> Kinds of fields.
-  integer, parameter, public :: FIELD_NUMBER = 0
-  integer, parameter, public :: FIELD_NOT_FINITE = 1
-  integer, parameter, public :: FIELD_WORD = 2
-  integer, parameter, public :: FIELD_WRONG = 3
+  !> Kinds of text, as of a column of a file.
+  integer, parameter, public :: KIND_NUMBER = 0
+  integer, parameter, public :: KIND_NOT_FINITE = 1
+  integer, parameter, public :: KIND_WORD = 2
+  integer, parameter, public :: KIND_WRONG = 3
 
   !> The largest double, 1.79..e308, has 309 digits before the point, of which these are the
   !> first. Numbers with a smaller decimal exponent than the least double, 4.9e-324, are 0.
   integer, parameter :: LARGEST_PLACES = 309, LEAST_PLACES = -323
   integer(int64), parameter :: LARGEST_DIGITS = 179769313486231570_int64
+  !> Digits that can decide: a point half-way between two doubles has at most 768.
+  integer, parameter :: DECISIVE_DIGITS = 800
+  !> Room for an exponent after them: e-1123 and a null character.
+  integer, parameter :: EXPONENT_LENGTH = 8
   !> Larger exponents are cut to this one, which overflows or vanishes in any case.
   integer, parameter :: EXPONENT_LIMIT = 100000
   integer, parameter :: BLANK = iachar(' '), MINUS = iachar('-'), PLUS = iachar('+'), POINT = iachar('.')
-  !> Number of characters of a field that messages quote.
+  !> Number of characters of a text that messages quote.
   integer, parameter :: QUOTE_LENGTH = 24
 
   !> A decimal number: digits * 10**exponent.
@@ -39,13 +45,24 @@ module fuge_text_fields
     logical :: complete = .true.
   end type decimal
 
+  interface
+    !> The double nearest to the number that `number` begins with, which ends with a null character; with a null pointer
+    !> C does not say where that number ends.
+    pure function strtod(number, no_end) bind(c, name='strtod') result(value)
+      import :: c_char, c_double, c_ptr
+      character(kind=c_char), intent(in) :: number(*)
+      type(c_ptr), intent(in), value :: no_end
+      real(c_double) :: value
+    end function strtod
+  end interface
+
 contains
 
-  pure function quoted_length(field) result(length)
-    character(len=*), intent(in) :: field
+  pure function quoted_length(string) result(length)
+    character(len=*), intent(in) :: string
     integer :: length
 
-    length = min(len(field), QUOTE_LENGTH) + merge(4, 2, len(field) > QUOTE_LENGTH)
+    length = min(len(string), QUOTE_LENGTH) + merge(4, 2, len(string) > QUOTE_LENGTH)
   end function quoted_length
 
   pure function description(kind) result(words)
@@ -53,17 +70,17 @@ contains
     character(len=24) :: words
 
     words = ' is not a number'
-    if (kind == FIELD_NOT_FINITE) words = ' is not a finite number'
+    if (kind == KIND_NOT_FINITE) words = ' is not a finite number'
   end function description
 
-  !> A field for a message: its beginning in quotes, unprintable characters as ?, quotes as '.
-  pure function quoted(field) result(quote)
-    character(len=*), intent(in) :: field
-    character(len=quoted_length(field)) :: quote
+  !> Text for a message: its beginning in quotes, unprintable characters as ?, quotes as '.
+  pure function quoted(string) result(quote)
+    character(len=*), intent(in) :: string
+    character(len=quoted_length(string)) :: quote
     integer :: k
 
-    quote = '"'//field(:min(len(field), QUOTE_LENGTH))
-    if (len(field) > QUOTE_LENGTH) quote(QUOTE_LENGTH + 2:) = '..'
+    quote = '"'//string(:min(len(string), QUOTE_LENGTH))
+    if (len(string) > QUOTE_LENGTH) quote(QUOTE_LENGTH + 2:) = '..'
     do k = 2, len(quote) - 1
       if (iachar(quote(k:k)) < 32 .or. iachar(quote(k:k)) > 126) quote(k:k) = '?'
       if (quote(k:k) == '"') quote(k:k) = ''''
@@ -71,75 +88,36 @@ contains
     quote(len(quote):) = '"'
   end function quoted
 
-  !> Why a field is not a number; `kind` as `read_number` returns it.
-  pure function describe_field(field, kind) result(reason)
-    character(len=*), intent(in) :: field
+  !> Why text is not a number; `kind` as `read_number` returns it.
+  pure function describe_text(string, kind) result(reason)
+    character(len=*), intent(in) :: string
     integer, intent(in) :: kind
-    character(len=len_trim(description(kind)) + quoted_length(field)) :: reason
+    character(len=len_trim(description(kind)) + quoted_length(string)) :: reason
 
-    reason = quoted(field)//description(kind)
-  end function describe_field
-
-  !> The first field between blanks from position `from` on: line(first:last), or last < first if
-  !> there is none.
-  pure subroutine find_field(line, from, first, last)
-    character(len=*), intent(in) :: line
-    integer, intent(in) :: from
-    integer, intent(out) :: first, last
-
-    first = after_blanks(line, from)
-    last = first - 1
-    do while (last < len(line))
-      if (is_blank(line(last + 1:last + 1))) exit
-      last = last + 1
-    end do
-  end subroutine find_field
-
-  !> Position of the first character from `from` on that is not blank; len(line) + 1 if all are.
-  pure function after_blanks(line, from) result(k)
-    character(len=*), intent(in) :: line
-    integer, intent(in) :: from
-    integer :: k
-
-    k = from
-    do while (k <= len(line))
-      if (.not. is_blank(line(k:k))) exit
-      k = k + 1
-    end do
-  end function after_blanks
-
-  !> Is the character a blank, a tab, or the carriage return of a Windows line end?
-  elemental function is_blank(letter)
-    character, intent(in) :: letter
-    logical :: is_blank
-    integer :: code
-
-    ! By number: gfortran compares characters with a blank by a call of its library.
-    code = iachar(letter)
-    is_blank = code == BLANK .or. code == 9 .or. code == 13
-  end function is_blank
+    reason = quoted(string)//description(kind)
+  end function describe_text
 
   !> Convert a number, which may have a decimal point and an exponent after d, D, e or E.
   !>
-  !> `kind` is one of the FIELD_ constants; `value` is 0 unless it is FIELD_NUMBER. Numbers too
-  !> small for a double are 0, numbers too large are FIELD_NOT_FINITE.
-  pure subroutine read_number(field, kind, value)
-    character(len=*), intent(in) :: field
+  !> `kind` is one of the KIND_ constants; `value` is 0 unless it is KIND_NUMBER. Numbers too
+  !> small for a double are 0, numbers too large are KIND_NOT_FINITE.
+  pure subroutine read_number(string, kind, value)
+    character(len=*), intent(in) :: string
     integer, intent(out) :: kind
     real(dp), intent(out) :: value
     type(decimal) :: number
     logical :: certain
 
     value = 0.0_dp
-    call read_decimal(field, number, kind)
-    if (kind /= FIELD_NUMBER) return
+    call read_decimal(string, number, kind)
+    if (kind /= KIND_NUMBER) return
     if (overflows(number)) then
-      kind = FIELD_NOT_FINITE
+      kind = KIND_NOT_FINITE
       return
     end if
     certain = number%digits == 0_int64 .or. number%exponent + number%count < LEAST_PLACES
     if (.not. certain) call round_first_digits(number, value, certain)
-    if (.not. certain) call round_all_digits(field, number%exponent + number%count, value)
+    if (.not. certain) call round_all_digits(string, number%exponent + number%count, value)
     if (number%negative) value = -value
   end subroutine read_number
 
@@ -158,27 +136,30 @@ contains
   end subroutine round_first_digits
 
   !> Round a number with all its digits: 0.d1d2d3.. * 10**`places`, where d1 is the first digit that is not 0.
-  pure subroutine round_all_digits(field, places, value)
-    character(len=*), intent(in) :: field
+  !>
+  !> C reads it as a whole number with an exponent, since in some locales the decimal point is a comma.
+  pure subroutine round_all_digits(string, places, value)
+    character(len=*), intent(in) :: string
     integer, intent(in) :: places
     real(dp), intent(out) :: value
-    character(len=DECISIVE_DIGITS) :: digits
+    character(len=DECISIVE_DIGITS + EXPONENT_LENGTH) :: whole
     integer :: k, used
 
     used = 0
-    do k = 1, len(field)
-      if (field(k:k) == '.') cycle
-      if (used == 0 .and. (field(k:k) == '+' .or. field(k:k) == '-' .or. field(k:k) == '0')) cycle
-      if (field(k:k) < '0' .or. field(k:k) > '9') exit
+    do k = 1, len(string)
+      if (string(k:k) == '.') cycle
+      if (used == 0 .and. (string(k:k) == '+' .or. string(k:k) == '-' .or. string(k:k) == '0')) cycle
+      if (string(k:k) < '0' .or. string(k:k) > '9') exit
       if (used < DECISIVE_DIGITS) then
         used = used + 1
-        digits(used:used) = field(k:k)
-      else if (field(k:k) /= '0') then
+        whole(used:used) = string(k:k)
+      else if (string(k:k) /= '0') then
         ! No point half-way between two doubles has as many digits: the number is above it.
-        digits(used:used) = '1'
+        whole(used:used) = '1'
       end if
     end do
-    value = round_exactly(digits(:used), places)
+    whole(used + 1:) = 'e'//text(places - used)//c_null_char
+    value = strtod(whole, c_null_ptr)
   end subroutine round_all_digits
 
   !> Is the number larger than the largest double?
@@ -193,49 +174,49 @@ contains
     if (places == LARGEST_PLACES) beyond = number%digits*10_int64**(MOST_DIGITS - number%count) > LARGEST_DIGITS
   end function overflows
 
-  !> Parse a field without rounding; `kind` as in `read_number`.
-  pure subroutine read_decimal(field, number, kind)
-    character(len=*), intent(in) :: field
+  !> Parse a number without rounding; `kind` as in `read_number`.
+  pure subroutine read_decimal(string, number, kind)
+    character(len=*), intent(in) :: string
     type(decimal), intent(out) :: number
     integer, intent(out) :: kind
     integer :: first, k, seen
 
     k = 1
-    number%negative = code_at(field, 1) == MINUS
-    if (number%negative .or. code_at(field, 1) == PLUS) k = 2
+    number%negative = code_at(string, 1) == MINUS
+    if (number%negative .or. code_at(string, 1) == PLUS) k = 2
     seen = 0
-    call read_digits(field, k, number, seen)
-    if (code_at(field, k) == POINT) then
+    call read_digits(string, k, number, seen)
+    if (code_at(string, k) == POINT) then
       first = k + 1
       k = first
-      call read_digits(field, k, number, seen)
+      call read_digits(string, k, number, seen)
       number%exponent = number%exponent - (k - first)
     end if
     if (seen == 0) then
-      kind = kind_of_word(field)
+      kind = kind_of_word(string)
       return
     end if
-    kind = FIELD_NUMBER
-    if (k > len(field)) return
-    select case (field(k:k))
+    kind = KIND_NUMBER
+    if (k > len(string)) return
+    select case (string(k:k))
     case ('e', 'E', 'd', 'D')
-      call read_exponent(field, k, number)
+      call read_exponent(string, k, number)
     case default
-      kind = FIELD_WRONG
+      kind = KIND_WRONG
     end select
-    if (k <= len(field)) kind = FIELD_WRONG
+    if (k <= len(string)) kind = KIND_WRONG
   end subroutine read_decimal
 
   !> Append the digits from position `k` on to the number; `seen` counts them, leading zeros
   !> included. On return `k` is the position after them.
-  pure subroutine read_digits(field, k, number, seen)
-    character(len=*), intent(in) :: field
+  pure subroutine read_digits(string, k, number, seen)
+    character(len=*), intent(in) :: string
     integer, intent(inout) :: k, seen
     type(decimal), intent(inout) :: number
     integer :: digit
 
-    do while (k <= len(field))
-      digit = iachar(field(k:k)) - iachar('0')
+    do while (k <= len(string))
+      digit = iachar(string(k:k)) - iachar('0')
       if (digit < 0 .or. digit > 9) exit
       seen = seen + 1
       k = k + 1
@@ -251,19 +232,19 @@ contains
   end subroutine read_digits
 
   !> Add the exponent whose letter is at position `k`; if no digits follow, `k` is unchanged.
-  pure subroutine read_exponent(field, k, number)
-    character(len=*), intent(in) :: field
+  pure subroutine read_exponent(string, k, number)
+    character(len=*), intent(in) :: string
     integer, intent(inout) :: k
     type(decimal), intent(inout) :: number
     integer :: digit, first, j, power
     logical :: negative
 
     first = k + 1
-    negative = code_at(field, first) == MINUS
-    if (negative .or. code_at(field, first) == PLUS) first = first + 1
+    negative = code_at(string, first) == MINUS
+    if (negative .or. code_at(string, first) == PLUS) first = first + 1
     power = 0
-    do j = first, len(field)
-      digit = iachar(field(j:j)) - iachar('0')
+    do j = first, len(string)
+      digit = iachar(string(j:j)) - iachar('0')
       if (digit < 0 .or. digit > 9) exit
       power = min(10*power + digit, EXPONENT_LIMIT)
     end do
@@ -273,41 +254,41 @@ contains
   end subroutine read_exponent
 
   !> The code of the character at position `k`, that of a blank beyond the end.
-  pure function code_at(field, k) result(code)
-    character(len=*), intent(in) :: field
+  pure function code_at(string, k) result(code)
+    character(len=*), intent(in) :: string
     integer, intent(in) :: k
     integer :: code
 
     code = BLANK
-    if (k <= len(field)) code = iachar(field(k:k))
+    if (k <= len(string)) code = iachar(string(k:k))
   end function code_at
 
   !> The character at position `k`, a blank beyond the end.
-  pure function character_at(field, k) result(letter)
-    character(len=*), intent(in) :: field
+  pure function character_at(string, k) result(letter)
+    character(len=*), intent(in) :: string
     integer, intent(in) :: k
     character :: letter
 
     letter = ' '
-    if (k <= len(field)) letter = field(k:k)
+    if (k <= len(string)) letter = string(k:k)
   end function character_at
 
-  !> Kind of a field without digits: NaN or infinity as usually written, a word, which begins with
+  !> Kind of a text without digits: NaN or infinity as usually written, a word, which begins with
   !> a letter or a quote, or something else.
-  pure function kind_of_word(field) result(kind)
-    character(len=*), intent(in) :: field
+  pure function kind_of_word(string) result(kind)
+    character(len=*), intent(in) :: string
     integer :: kind
     character(len=8) :: word
 
-    word = field
-    if (scan(character_at(field, 1), '+-') > 0) word = field(2:)
+    word = string
+    if (scan(character_at(string, 1), '+-') > 0) word = string(2:)
     word = lower_case(word)
     if (word == 'inf' .or. word == 'infinity' .or. word == 'nan' .or. word(1:4) == 'nan(') then
-      kind = FIELD_NOT_FINITE
-    else if (scan(character_at(field, 1), '0123456789+-.* ') > 0) then
-      kind = FIELD_WRONG
+      kind = KIND_NOT_FINITE
+    else if (scan(character_at(string, 1), '0123456789+-.* ') > 0) then
+      kind = KIND_WRONG
     else
-      kind = FIELD_WORD
+      kind = KIND_WORD
     end if
   end function kind_of_word
 
@@ -325,10 +306,10 @@ contains
 
   !> Convert a whole number: digits, optionally with a sign.
   !>
-  !> `kind` is FIELD_NUMBER, or another one with `value` 0. Numbers beyond 10**18 are reduced to
+  !> `kind` is KIND_NUMBER, or another one with `value` 0. Numbers beyond 10**18 are reduced to
   !> it.
-  pure subroutine read_whole(field, kind, value)
-    character(len=*), intent(in) :: field
+  pure subroutine read_whole(string, kind, value)
+    character(len=*), intent(in) :: string
     integer, intent(out) :: kind
     integer(int64), intent(out) :: value
     type(decimal) :: number
@@ -336,19 +317,19 @@ contains
 
     value = 0_int64
     k = 1
-    if (scan(character_at(field, 1), '+-') > 0) k = 2
+    if (scan(character_at(string, 1), '+-') > 0) k = 2
     seen = 0
-    call read_digits(field, k, number, seen)
-    kind = FIELD_NUMBER
+    call read_digits(string, k, number, seen)
+    kind = KIND_NUMBER
     if (seen == 0) then
-      kind = kind_of_word(field)
-    else if (k <= len(field)) then
-      kind = FIELD_WRONG
+      kind = kind_of_word(string)
+    else if (k <= len(string)) then
+      kind = KIND_WRONG
     end if
-    if (kind /= FIELD_NUMBER) return
+    if (kind /= KIND_NUMBER) return
     value = number%digits
     if (number%exponent > 0) value = 10_int64**MOST_DIGITS
-    if (field(1:1) == '-') value = -value
+    if (string(1:1) == '-') value = -value
   end subroutine read_whole
 
-end module fuge_text_fields
+end module fuge_text_numbers

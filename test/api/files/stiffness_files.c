@@ -1,16 +1,8 @@
 /* Section "stiffness files" of fuge_files.h. */
-#include "check.h"
+#include "scratch.h"
 
 static const char *const NAME = "api_stiffness_files_scratch.txt";
 static const char *const ROWS = "api_stiffness_files_scratch.dof";
-
-static void write_file(const char *name, const char *content) {
-  FILE *file = fopen(name, "wb");
-  CHECK(file != NULL);
-  if (file == NULL) return;
-  fputs(content, file);
-  fclose(file);
-}
 
 static void test_named_entries(void) {
   int column[4] = {-1, -1, -1, -1}, row[5] = {-1, -1, -1, -1, -1}, node[4] = {-1, -1, -1, -1}, direction[4], rows = -1,

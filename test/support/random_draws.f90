@@ -1,5 +1,5 @@
-!> Random numbers of the minimal standard generator, one at a time. Each function advances the seed, so that an
-!> expression must not call two of them.
+!> Random numbers of the minimal standard generator, one at a time, and values without a pattern. Each function with a
+!> seed advances it, so that an expression must not call two of them.
 module random_draws
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge, only: dp => fuge_dp
@@ -8,6 +8,7 @@ module random_draws
   private
 
   public :: seed_of, uniform, decimal, chance, one_of
+  public :: irregular, some_forces
 
 contains
 
@@ -58,5 +59,25 @@ contains
 
     number = min(1 + int(uniform(seed, 0.0_dp, real(n, dp))), n)
   end function one_of
+
+  !> Irregular numbers between -1/4 and 1, the same in every run.
+  pure function irregular(n) result(values)
+    integer, intent(in) :: n
+    real(dp) :: values(n)
+    integer :: k
+
+    values = [(1.25_dp*modulo(0.618033988749895_dp*real(k, dp)**2, 1.0_dp) - 0.25_dp, k=1, n)]
+  end function irregular
+
+  !> Forces of both signs, some of them 0, by the generator of the compiler.
+  function some_forces(n) result(force)
+    integer, intent(in) :: n
+    real(dp) :: force(n)
+
+    call random_number(force)
+    where (force < 0.3_dp) force = 0.0_dp
+    force = force - 0.1_dp
+    if (n == 1) force = 2.0_dp
+  end function some_forces
 
 end module random_draws

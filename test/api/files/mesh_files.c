@@ -1,15 +1,7 @@
 /* Section "mesh files" of fuge_files.h. */
-#include "check.h"
+#include "scratch.h"
 
 static const char *const NAME = "api_mesh_files_scratch.inp";
-
-static void write_file(const char *content) {
-  FILE *file = fopen(NAME, "wb");
-  CHECK(file != NULL);
-  if (file == NULL) return;
-  fputs(content, file);
-  fclose(file);
-}
 
 static void test_mesh(void) {
   fuge_mesh *mesh = NULL;
@@ -17,7 +9,7 @@ static void test_mesh(void) {
   int node[4], element[1], first[2], connection[4], member[4], faces[16];
   double position[12];
   char message[256] = "old", type[17];
-  write_file("*NODE\n10, 0., 0., 0.\n20, 1., 0., 0.\n30, 0., 1., 0.\n40, 0., 0., 1.\n"
+  write_file(NAME, "*NODE\n10, 0., 0., 0.\n20, 1., 0., 0.\n30, 0., 1., 0.\n40, 0., 0., 1.\n"
              "*ELEMENT, TYPE=c3d4, ELSET=Tet\n7, 10, 20, 30, 40\n*NSET, NSET=BASE\n10, 30, 20\n"
              "*SURFACE, NAME=FOOT\nTET, S1\nTET, S3\n");
   CHECK_MESSAGE(fuge_read_mesh(NAME, &mesh, message, sizeof message), FUGE_DONE, message, "");
@@ -73,7 +65,7 @@ static void test_refusals(void) {
   fuge_mesh *mesh = NULL;
   int count = -1;
   char message[256] = "";
-  write_file("*NODE\n1, 0., 0., 0.\n1, 0., 0., 0.\n");
+  write_file(NAME, "*NODE\n1, 0., 0., 0.\n1, 0., 0., 0.\n");
   CHECK_STATUS(fuge_read_mesh(NAME, &mesh, message, sizeof message), FUGE_ERR_FILE);
   CHECK_STRING(message, "\"api_mesh_files_scratch.inp\", line 3: node 1 is defined a second time");
   CHECK(mesh == NULL);
