@@ -31,6 +31,8 @@ class Info:
         The certificate: the largest scaled violation of the contact conditions.
     force_error : float
         Estimated largest error of a force, relative to the largest force; 1 if no digit is known.
+    energy : float
+        Elastic energy of the bodies and of all springs; force times length.
     """
 
     status: Status
@@ -40,6 +42,7 @@ class Info:
     preconditionings: int
     residual: float
     force_error: float
+    energy: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,11 +54,13 @@ class Contact:
     force : ndarray, shape of the gaps
         Contact forces, positive where the bodies press on each other.
     gap : ndarray, shape of the gaps
-        Gaps under load; length.
+        Gaps under load; length. Negative only where excluded, or where the force has reached its limit.
     motion : ndarray, shape (m,)
         Rigid motions, free and prescribed.
     resultant : ndarray, shape (m,)
         Resultants of the forces in the directions of the motions.
+    state : ndarray of int, shape of the gaps
+        State of each point, a value of :class:`PointState`.
     info : Info
         Report, with the certificate.
     message : str
@@ -68,6 +73,7 @@ class Contact:
     gap: NDArray[np.float64]
     motion: NDArray[np.float64]
     resultant: NDArray[np.float64]
+    state: NDArray[np.intc]
     info: Info
     message: str
     cells: Cells | None = None
@@ -164,4 +170,5 @@ def info_of(report: Any) -> Info:
         report.preconditionings,
         report.residual,
         report.force_error,
+        report.energy,
     )

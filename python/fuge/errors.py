@@ -48,6 +48,7 @@ class Status(Constants):
     ERR_MODES = auto()
     ERR_DOF = auto()
     ERR_MESH = auto()
+    ERR_LAW = auto()
 
     @property
     def text(self) -> str:

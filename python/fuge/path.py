@@ -25,6 +25,10 @@ class PointState(Constants):
     """Between the stops, no force."""
     AT_UPPER_STOP = auto()
     """Gap equal to the play, force <= 0."""
+    LIMITED_LOWER = auto()
+    """Force at the limit of the lower stop, gap <= 0."""
+    LIMITED_UPPER = auto()
+    """Force at the limit of the upper stop, gap >= play."""
 
 
 @dataclass(frozen=True, eq=False)

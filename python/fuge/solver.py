@@ -53,9 +53,10 @@ def chosen_options(
 class Solver(Owner):
     """A contact problem and its solution, for one solve after the other.
 
-    The problem has three parts, each set on its own: gaps (:meth:`set_gap`), exclusions (:meth:`set_excluded`) and
-    motions (:meth:`set_load`, :meth:`set_approach` or :meth:`set_modes`). A solve starts from the contact of the one
-    before. Calls from several threads wait for each other.
+    The parts of the problem are set each on its own: gaps (:meth:`set_gap`), exclusions (:meth:`set_excluded`),
+    springs at the points (:meth:`set_compliance`), limits of the forces (:meth:`set_limits`), and motions
+    (:meth:`set_load`, :meth:`set_approach` or :meth:`set_modes`). A solve starts from the contact of the one before.
+    Calls from several threads wait for each other.
 
     Parameters
     ----------
@@ -157,6 +158,44 @@ class Solver(Owner):
             chosen = found.reshape(-1)
         self._call("fuge_set_excluded", chosen)
 
+    def set_compliance(self, compliance: ArrayLike | None) -> None:
+        """Put a spring between the bodies at each point: a gasket, a bed, a member.
+
+        Springs and limits need a matrix, and one of the methods 'active_set' and 'tableau'.
+
+        Parameters
+        ----------
+        compliance : array_like of the shape of the gaps, or float, or None
+            By how much a force of 1 shortens the spring, not negative; length per force. None: no springs.
+
+        Raises
+        ------
+        InputError
+            A shape does not fit, or a compliance is negative or not finite.
+        """
+        self._call("fuge_set_compliance", *self._laws(compliance=compliance), shapes=self._law_shapes())
+
+    def set_limits(self, limit: ArrayLike | None = None, limit_upper: ArrayLike | None = None) -> None:
+        """Limit the forces: to hardness times area, to the yield force of a support, or as where a clamp slips.
+
+        A point whose force has reached its limit gives way: its gap may be negative then, at the upper stop greater
+        than the play.
+
+        Parameters
+        ----------
+        limit : array_like of the shape of the gaps, or float, optional
+            Limit of the force at the lower stop, not negative; force. Infinity, or without this argument: none.
+        limit_upper : array_like of the shape of the gaps, or float, optional
+            Likewise, of the size of the force at the upper stop; for a tied point, of a pulling force.
+
+        Raises
+        ------
+        InputError
+            A shape does not fit, or a limit is negative or NaN.
+        """
+        values = self._laws(limit=limit, limit_upper=limit_upper)
+        self._call("fuge_set_limits", *values, shapes=self._law_shapes())
+
     def set_load(self, load: float) -> None:
         """Let the bodies approach each other by one translation, under a load that is not negative; force."""
         self._call("fuge_set_load", _arrays.number("load", load))
@@ -190,6 +229,14 @@ class Solver(Owner):
     def set_resultant(self, mode: int, resultant: float) -> None:
         """Let a motion be free under a resultant of either sign, or change the resultant."""
         self._call("fuge_set_resultant", _arrays.integer("mode", mode), _arrays.number("resultant", resultant))
+
+    def set_motion_stiffness(self, mode: int, stiffness: float) -> None:
+        """Put one of the motions on a spring, which takes its part of the resultant; 0: no spring.
+
+        The springs go with the motions, when these are set anew.
+        """
+        values = _arrays.integer("mode", mode), _arrays.number("stiffness", stiffness)
+        self._call("fuge_set_motion_stiffness", *values)
 
     @property
     def mode_count(self) -> int:
@@ -321,15 +368,25 @@ class Solver(Owner):
         self._get("fuge_get_mode_count", pointer, count)
         force, gap = np.empty(self._shape), np.empty(self._shape)
         motion, resultant = np.empty(int(count[0])), np.empty(int(count[0]))
+        state = np.empty(self._shape, dtype=np.intc)
         self._get("fuge_get_force", pointer, force)
         self._get("fuge_get_gap", pointer, gap)
         self._get("fuge_get_motion", pointer, motion)
         self._get("fuge_get_resultant", pointer, resultant)
+        self._get("fuge_get_states", pointer, state)
         self._get("fuge_get_info", pointer, ctypes.byref(report))
-        return Contact(force, gap, motion, resultant, info_of(report), message, self.operator.cells)
+        return Contact(force, gap, motion, resultant, state, info_of(report), message, self.operator.cells)
 
     def _get(self, name: str, pointer: ctypes.c_void_p, result: Any) -> None:
         end_call(function(name)(pointer, result), lambda: self._read_message(pointer))
+
+    def _laws(self, **values: ArrayLike | None) -> list[NDArray[np.float64] | None]:
+        """One value for each point where there are any."""
+        return [None if value is None else self._points(name, value) for name, value in values.items()]
+
+    def _law_shapes(self) -> dict[str, tuple[int, ...]]:
+        """Shapes of the arrays with the laws of the points, for messages."""
+        return dict.fromkeys(("compliance", "limit", "limit_upper"), self._shape)
 
     def _points(self, name: str, value: ArrayLike) -> NDArray[np.float64]:
         """One value for each point; a single number stands for all of them."""
@@ -350,6 +407,10 @@ def solve(
     motion: Mapping[int, float] | None = None,
     gap_upper: ArrayLike | None = None,
     excluded: ArrayLike | None = None,
+    compliance: ArrayLike | None = None,
+    limit: ArrayLike | None = None,
+    limit_upper: ArrayLike | None = None,
+    motion_stiffness: ArrayLike | None = None,
     method: Method | None = None,
     pivot_rule: PivotRule | None = None,
     max_iterations: int | None = None,
@@ -379,6 +440,13 @@ def solve(
         Play between two stops: infinity for one-sided contact, 0 for tied points; length.
     excluded : array_like of bool, shape of gap, optional
         Points that carry no force.
+    compliance : array_like of the shape of gap, or float, optional
+        Springs at the points; length per force. They, limits and motion_stiffness need a matrix; see
+        :meth:`Solver.set_compliance`.
+    limit, limit_upper : array_like of the shape of gap, or float, optional
+        Limits of the forces; see :meth:`Solver.set_limits`.
+    motion_stiffness : float, or array_like of shape (m,), optional
+        Stiffnesses of springs on the motions, 0 for none; see :meth:`Solver.set_motion_stiffness`.
     method, pivot_rule, max_iterations, tolerance, progress
         As in :class:`Solver`.
 
@@ -413,6 +481,10 @@ def solve(
         solver.set_gap(gap, gap_upper)
         if excluded is not None:
             solver.set_excluded(excluded)
+        if compliance is not None:
+            solver.set_compliance(compliance)
+        if limit is not None or limit_upper is not None:
+            solver.set_limits(limit, limit_upper)
         if load is not None:
             solver.set_load(load)
         elif approach is not None:
@@ -421,6 +493,10 @@ def solve(
             solver.set_modes(modes, _resultants(modes, resultant, motion))
             for mode, value in (motion or {}).items():
                 solver.set_motion(mode, value)
+        if motion_stiffness is not None:
+            values = np.atleast_1d(_arrays.array("motion_stiffness", motion_stiffness))
+            for mode, stiffness in enumerate(_arrays.vector("motion_stiffness", values, solver.mode_count)):
+                solver.set_motion_stiffness(mode, stiffness)
         contact: Contact = solver.solve()
         return contact
 

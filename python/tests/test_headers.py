@@ -123,6 +123,7 @@ class Package(unittest.TestCase):
     def test_names_stand_for_their_constants(self):
         self.assertEqual(fuge.Status.ERR_MESH, -23)
         self.assertEqual(fuge.PointState.AT_UPPER_STOP, -1)
+        self.assertEqual(fuge.PointState.LIMITED_UPPER, -2)
         self.assertEqual(fuge.EdgeKind.GRID_END, 3)
         self.assertEqual(_words.WORDS["PAPER_RULE"], "paper")
         self.assertEqual(_words.WORDS["PERIODIC_Y"], "periodic_y")

@@ -83,6 +83,73 @@ class OneCall(unittest.TestCase):
             self.assertEqual(caught.exception.status, fuge.Status.ERR_OPTION)
 
 
+class Laws(unittest.TestCase):
+    SPRINGS = {"operator": np.zeros((2, 2)), "gap": 0.0, "compliance": [1.0, 0.5]}
+
+    def test_two_springs(self):
+        contact = fuge.solve(**self.SPRINGS, load=6.0)
+        np.testing.assert_allclose(contact.force, [2, 4], rtol=TOLERANCE)
+        self.assertAlmostEqual(contact.approach, 2.0, delta=TOLERANCE)
+        self.assertAlmostEqual(contact.info.energy, 6.0, delta=TOLERANCE)
+
+    def test_limit(self):
+        contact = fuge.solve(**self.SPRINGS, load=6.0, limit=[np.inf, 3.0])
+        np.testing.assert_allclose(contact.force, [3, 3], rtol=TOLERANCE)
+        np.testing.assert_allclose(contact.gap, [0, -1.5], atol=TOLERANCE)
+        self.assertEqual(contact.state.tolist(), [fuge.PointState.AT_LOWER_STOP, fuge.PointState.LIMITED_LOWER])
+
+    def test_pulling_limit(self):
+        contact = fuge.solve(
+            **self.SPRINGS, modes=np.ones((2, 1)), resultant=[-4.0], gap_upper=0.0, limit_upper=[np.inf, 1.0]
+        )
+        np.testing.assert_allclose(contact.force, [-3, -1], rtol=TOLERANCE)
+        self.assertEqual(contact.state.tolist(), [fuge.PointState.AT_LOWER_STOP, fuge.PointState.LIMITED_UPPER])
+
+    def test_spring_on_the_motion(self):
+        for stiffness in (3.0, [3.0]):
+            contact = fuge.solve(**self.SPRINGS, load=6.0, motion_stiffness=stiffness)
+            np.testing.assert_allclose(contact.force, [1, 2], rtol=TOLERANCE)
+            self.assertAlmostEqual(contact.info.energy, 3.0, delta=TOLERANCE)
+
+    def test_one_solver(self):
+        with fuge.Solver(np.zeros((2, 2))) as solver:
+            solver.set_gap([0.0, 0.0])
+            solver.set_load(6.0)
+            solver.set_compliance([1.0, 0.5])
+            solver.set_limits(limit=3.0)
+            np.testing.assert_allclose(solver.solve().force, [3, 3], rtol=TOLERANCE)
+            solver.set_limits()
+            np.testing.assert_allclose(solver.solve().force, [2, 4], rtol=TOLERANCE)
+            solver.set_compliance(1.0)
+            np.testing.assert_allclose(solver.solve().force, [3, 3], rtol=TOLERANCE)
+            solver.set_motion_stiffness(0, 1.0)
+            np.testing.assert_allclose(solver.solve().force, [2, 2], rtol=TOLERANCE)
+
+    def test_states_of_hard_contact_on_a_grid(self):
+        x, y = np.meshgrid(np.linspace(-1, 1, 8), np.linspace(-1, 1, 6))
+        contact = fuge.solve(fuge.HalfspaceOperator(8, 6, 0.25, 0.4, 1.0), x**2 + y**2, 0.1)
+        self.assertEqual(contact.state.shape, (6, 8))
+        np.testing.assert_array_equal(contact.state == fuge.PointState.AT_LOWER_STOP, contact.force > 0)
+
+    def test_what_is_refused(self):
+        for arguments, word in [
+            ({"compliance": [1.0, -0.5]}, "compliance[1] = -0.5"),
+            ({"limit": [1.0, -0.5]}, "limit[1] = -0.5"),
+            ({"limit_upper": -1.0}, "limit_upper[0] = -1"),
+            ({"motion_stiffness": -3.0}, "motion_stiffness[0] = -3"),
+        ]:
+            with self.assertRaises(fuge.InputError) as caught:
+                fuge.solve(ALPHA, GAP, 2.0, **arguments)
+            self.assertEqual(caught.exception.status, fuge.Status.ERR_LAW)
+            self.assertIn(word, caught.exception.message)
+        with self.assertRaises(fuge.InputError):
+            fuge.solve(ALPHA, GAP, 2.0, motion_stiffness=[1.0, 2.0])
+        with self.assertRaises(fuge.EquilibriumError):
+            fuge.solve(ALPHA, GAP, 2.0, limit=0.5)
+        with self.assertRaises(fuge.UnsupportedError):
+            fuge.solve(ALPHA, GAP, 2.0, limit=5.0, method="iterative")
+
+
 class Errors(unittest.TestCase):
     def refused(self, kind, status, call, *words):
         with self.assertRaises(kind) as caught:
