@@ -1,4 +1,4 @@
-!> Two tables have to hold the same numbers, to rounding: compare_tables found expected.
+!> Two tables have to hold the same numbers, to rounding, and the same states: compare_tables found expected.
 !>
 !> CSV; lines that begin with # are left out, the line of words has to be the same. A number
 !> may differ by 1e-12 of the largest one in its column.
@@ -14,6 +14,8 @@ program compare_tables
     integer :: rows = 0
     integer :: columns = 0
     real(dp) :: value(MOST_ROWS, MOST_COLUMNS) = 0.0_dp
+    !> The last column, where that is named state.
+    character(len=8) :: state(MOST_ROWS) = ''
   end type table
 
   call run()
@@ -30,6 +32,7 @@ contains
     call read_table(2, expected)
     if (found%words /= expected%words) error stop 'the columns have other names'
     if (found%rows /= expected%rows .or. expected%rows == 0) error stop 'not as many rows'
+    if (any(found%state /= expected%state)) error stop 'not the same states'
     do j = 1, expected%columns
       off = maxval(abs(found%value(:, j) - expected%value(:, j)))
       if (off <= TOLERANCE*maxval(abs(expected%value(:, j)))) cycle
@@ -43,8 +46,10 @@ contains
     type(table), intent(inout) :: content
     character(len=1024) :: line
     integer :: file, k, status
+    logical :: has_states
 
     call get_command_argument(argument, line)
+    has_states = .false.
     open (newunit=file, file=line, status='old', action='read')
     do
       read (file, '(a)', iostat=status) line
@@ -52,10 +57,13 @@ contains
       if (line(1:1) == '#') cycle
       if (content%words == '') then
         content%words = line(:len(content%words))
-        content%columns = 1 + count([(line(k:k) == ',', k=1, len(line))])
+        has_states = index(line, ',state') > 0
+        content%columns = count([(line(k:k) == ',', k=1, len(line))])
+        if (.not. has_states) content%columns = content%columns + 1
         cycle
       end if
       content%rows = content%rows + 1
+      if (has_states) content%state(content%rows) = line(index(line, ',', back=.true.) + 1:)
       read (line, *) content%value(content%rows, :content%columns)
     end do
     close (file)

@@ -88,7 +88,7 @@ foreach(arguments IN ITEMS "--output other.csv" "--output new.csv" "--output wit
 endforeach()
 foreach(name IN ITEMS new.csv within/a.csv within/b.csv within/c.csv)
   file(READ "${FOLDER}/${name}" table)
-  if(NOT table MATCHES "point,force,gap\n1, *2\\.")
+  if(NOT table MATCHES "point,force,gap,state\n1, *2\\.")
     message(SEND_ERROR "${name}: ${table}")
   endif()
 endforeach()

@@ -83,13 +83,16 @@ contains
     end if
   end subroutine explain_motions
 
-  !> What belongs to the points: plays, excluded ones and motions.
+  !> What belongs to the points: plays, springs, limits of the forces, excluded ones and motions.
   subroutine take_points(given, problem, info)
     type(arguments), intent(in) :: given
     type(fuge_problem), intent(inout) :: problem
     type(fuge_info), intent(inout) :: info
 
     if (.not. info%failed()) call take_play(given, problem, info)
+    if (.not. info%failed()) call take_law(given, 'compliance', size(problem%gap), problem%compliance, info)
+    if (.not. info%failed()) call take_limit(given, 'limit', size(problem%gap), problem%limit, info)
+    if (.not. info%failed()) call take_limit(given, 'limit-upper', size(problem%gap), problem%limit_upper, info)
     if (.not. info%failed()) call take_excluded(given, problem, info)
     if (.not. info%failed()) call take_motion(given, problem, info)
   end subroutine take_points
@@ -102,9 +105,46 @@ contains
 
     if (.not. given%has('play')) return
     call read_vector(given%file('play'), size(problem%gap), problem%gap_upper, info)
-    if (info%failed()) return
-    where (abs(problem%gap_upper + 1.0_dp) <= 0.0_dp) problem%gap_upper = ieee_value(1.0_dp, ieee_positive_inf)
+    if (.not. info%failed()) call set_infinite(problem%gap_upper)
   end subroutine take_play
+
+  !> Limits of forces; -1 is none.
+  subroutine take_limit(given, name, n, values, info)
+    type(arguments), intent(in) :: given
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: n
+    real(dp), allocatable, intent(inout) :: values(:)
+    type(fuge_info), intent(inout) :: info
+
+    call take_law(given, name, n, values, info)
+    if (allocated(values)) call set_infinite(values)
+  end subroutine take_limit
+
+  !> A value for each of `n` points, from a file or one for all. Not allocated without the option `name`.
+  subroutine take_law(given, name, n, values, info)
+    type(arguments), intent(in) :: given
+    character(len=*), intent(in) :: name
+    integer, intent(in) :: n
+    real(dp), allocatable, intent(inout) :: values(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: value
+    logical :: is_number
+
+    if (.not. given%has(name)) return
+    call read_real(given%settings(given%position(name))%value, value, is_number)
+    if (is_number) then
+      allocate (values(n), source=value)
+    else
+      call read_vector(given%file(name), n, values, info)
+    end if
+  end subroutine take_law
+
+  !> Where a file has -1 there is no stop and no limit.
+  subroutine set_infinite(values)
+    real(dp), intent(inout) :: values(:)
+
+    where (abs(values + 1.0_dp) <= 0.0_dp) values = ieee_value(1.0_dp, ieee_positive_inf)
+  end subroutine set_infinite
 
   !> Points that --exclude names.
   subroutine take_excluded(given, problem, info)

@@ -1,6 +1,6 @@
 !> The table of contact points of meshes.
 module mesh_table
-  use contact_table, only: put_status
+  use contact_table, only: put_status, state_word
   use fuge, only: dp => fuge_dp, fuge_info, fuge_joined_bodies, fuge_problem, fuge_solution
   use mesh_body, only: model_body
   use mesh_pairs, only: mesh_node, model_pair
@@ -103,26 +103,8 @@ contains
       write (values, '(10(es24.16e3,'',''))') body%mesh%position(:, node), direction, found%area(i), &
         solution%force(i), solution%force(i)/found%area(i), solution%gap(i)
       call csv%put(number_text(found%pair(i))//','//body%name//','//number_text(body%mesh%node(node))//',' &
-                   //trim(values)//trim(state(i, problem, solution)))
+                   //trim(values)//trim(state_word(i, problem, solution)))
     end associate
   end subroutine put_point
-
-  !> What a contact point does.
-  pure function state(i, problem, solution)
-    integer, intent(in) :: i
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_solution), intent(in) :: solution
-    character(len=8) :: state
-
-    state = 'open'
-    if (solution%force(i) > 0.0_dp) state = 'contact'
-    if (solution%force(i) < 0.0_dp) state = 'upper'
-    if (allocated(problem%gap_upper)) then
-      if (.not. problem%gap_upper(i) > 0.0_dp) state = 'held'
-    end if
-    if (allocated(problem%excluded)) then
-      if (problem%excluded(i)) state = 'excluded'
-    end if
-  end function state
 
 end module mesh_table

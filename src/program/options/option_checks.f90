@@ -22,6 +22,7 @@ module option_checks
   character(len=12), parameter :: ONLY_SURFACE(11) = [character(len=12) :: 'boundary', 'element', 'fill', &
     'height-scale', 'level', 'modulus', 'poisson', 'scale', 'spacing', 'surface', 'young']
   character(len=12), parameter :: NOT_ALPHA(2) = [character(len=12) :: 'field', 'rows']
+  character(len=12), parameter :: LAWS(3) = [character(len=12) :: 'compliance', 'limit', 'limit-upper']
   character(len=12), parameter :: NOT_SURFACE(5) = [character(len=12) :: 'approach', 'exclude', 'gap', 'play', 'rows']
 
   !> Options whose value is the path of a result.
@@ -55,6 +56,7 @@ contains
     if (kind /= WITH_SURFACE) call check_absent(given, ONLY_SURFACE, NEEDED(WITH_SURFACE), info)
     if (kind == WITH_ALPHA .or. kind == WITH_MATRICES) &
       call check_absent(given, ['pressure'], trim(NEEDED(WITH_MESHES))//', or '//NEEDED(WITH_SURFACE), info)
+    if (kind == WITH_SURFACE .or. kind == WITH_MESHES) call check_absent(given, LAWS, '--alpha or --contact', info)
     if (kind == WITH_SURFACE) call check_absent(given, NOT_SURFACE, 'matrices or meshes', info)
     if (kind == WITH_ALPHA) call check_absent(given, NOT_ALPHA, NEEDED(WITH_MATRICES), info)
     if (.not. info%failed()) call check_results(given, info)

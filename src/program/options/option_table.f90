@@ -6,9 +6,10 @@ module option_table
   public :: may_repeat, option_number, takes_value
 
   !> The names of the options, after two hyphens.
-  character(len=12), parameter, public :: OPTION_NAMES(46) = [character(len=12) :: &
-    'alpha', 'approach', 'body', 'boundary', 'clearance', 'contact', 'crease', 'element', 'exclude', 'external', &
-    'faceted', 'field', 'fill', 'fixed', 'floats', 'gap', 'height-scale', 'help', 'level', 'load', 'loads', &
+  character(len=12), parameter, public :: OPTION_NAMES(49) = [character(len=12) :: &
+    'alpha', 'approach', 'body', 'boundary', 'clearance', 'compliance', 'contact', 'crease', 'element', 'exclude', &
+    'external', 'faceted', 'field', 'fill', 'fixed', 'floats', 'gap', 'height-scale', 'help', 'level', 'limit', &
+    'limit-upper', 'load', 'loads', &
     'matrix', 'mesh', 'modes', 'modulus', 'motion', 'node-to-face', 'normals', 'output', 'pair', 'play', 'poisson', &
     'pressure', 'reach', 'resultant', 'rows', 'scale', 'spacing', 'stiffness', 'support', 'supports', 'surface', &
     'tied', 'verbose', 'version', 'young']
@@ -20,12 +21,12 @@ module option_table
     'body', 'clearance', 'crease', 'exclude', 'faceted', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', &
     'normals', 'pair', 'play', 'pressure', 'reach', 'rows', 'stiffness', 'support', 'supports', 'tied']
   !> Those whose value is the path of an input.
-  character(len=12), parameter, public :: INPUTS(14) = [character(len=12) :: &
-    'alpha', 'contact', 'external', 'fixed', 'gap', 'loads', 'mesh', 'modes', 'play', 'resultant', 'rows', &
-    'stiffness', 'supports', 'surface']
+  character(len=12), parameter, public :: INPUTS(17) = [character(len=12) :: &
+    'alpha', 'compliance', 'contact', 'external', 'fixed', 'gap', 'limit', 'limit-upper', 'loads', 'mesh', 'modes', &
+    'play', 'resultant', 'rows', 'stiffness', 'supports', 'surface']
 
   !> What `fuge --help` prints.
-  character(len=*), parameter, public :: HELP(83) = [character(len=96) :: &
+  character(len=*), parameter, public :: HELP(87) = [character(len=96) :: &
     'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
     '', &
     '  fuge --mesh FILE --stiffness FILE [--mesh FILE --stiffness FILE ..] --pair SURFACE:SURFACE', &
@@ -69,6 +70,10 @@ module option_table
     '  --alpha FILE            n x n    influence matrix, displacement per force', &
     '  --gap FILE              n        initial gaps', &
     '  --play FILE             n        distance of the second stop; -1: none, 0: tied', &
+    '  --compliance FILE|D     n        springs at the points, length per force; or one for all', &
+    '  --limit FILE|F          n        limit of each force; -1: none, 0: does not push', &
+    '  --limit-upper FILE|F    n        of the size of a force at the second stop, or of one that', &
+    '                          pulls at a tied point; likewise', &
     '  --stiffness FILE        nd x nd  stiffness matrix, in any format above', &
     '  --contact FILE          n x nd   row i: direction in which the force of point i acts on', &
     '                          the body, into it, in the columns of its degrees of freedom', &

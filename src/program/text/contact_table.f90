@@ -1,15 +1,16 @@
 !> Tables of contact forces and of displacements: CSV with comments after #.
 module contact_table
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, fuge_status_text
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, fuge_status_text, FUGE_LIMITED_LOWER, &
+    FUGE_LIMITED_UPPER
   use text_table, only: table
   implicit none
   private
 
-  public :: put_outcome, put_status, write_contact, write_displacements
+  public :: put_outcome, put_status, state_word, write_contact, write_displacements
 
 contains
 
-  !> Forces and gaps; on standard output if `path` is empty.
+  !> Forces, gaps and states; on standard output if `path` is empty.
   subroutine write_contact(path, problem, solution, info)
     character(len=*), intent(in) :: path
     type(fuge_problem), intent(in) :: problem
@@ -27,9 +28,10 @@ contains
         resultant(problem, solution%force, k)
       call csv%put(line)
     end do
-    call csv%put('point,force,gap')
+    call csv%put('point,force,gap,state')
     do k = 1, size(solution%force)
-      write (line, '(i0,2('','',es24.16e3))') k, solution%force(k), solution%gap(k)
+      write (line, '(i0,2('','',es24.16e3),2a)') k, solution%force(k), solution%gap(k), ',', &
+        state_word(k, problem, solution)
       call csv%put(line)
     end do
     call csv%finish(info)
@@ -58,6 +60,25 @@ contains
     write (line, '(a,es9.2e3)') '# residual: ', info%residual
     call csv%put(line)
   end subroutine put_outcome
+
+  !> What contact point `k` does; where its force is limited, the sign of that tells the stop.
+  pure function state_word(k, problem, solution) result(state)
+    integer, intent(in) :: k
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    character(len=8) :: state
+
+    state = 'open'
+    if (solution%force(k) > 0.0_dp) state = 'contact'
+    if (solution%force(k) < 0.0_dp) state = 'upper'
+    if (allocated(problem%gap_upper)) then
+      if (.not. problem%gap_upper(k) > 0.0_dp) state = 'held'
+    end if
+    if (solution%state(k) == FUGE_LIMITED_LOWER .or. solution%state(k) == FUGE_LIMITED_UPPER) state = 'limited'
+    if (allocated(problem%excluded)) then
+      if (problem%excluded(k)) state = 'excluded'
+    end if
+  end function state_word
 
   !> (R^T f)_k
   pure function resultant(problem, force, k)
