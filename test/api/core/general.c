@@ -14,7 +14,7 @@ static void test_status_texts(void) {
     CHECK(meaning != NULL && strlen(meaning) > 0);
     CHECK(strcmp(meaning, unknown) != 0);
     CHECK(meaning[strlen(meaning) - 1] != ' ');
-    for (int other = FUGE_ERR_MESH; other < status; other++)
+    for (int other = FUGE_ERR_LAW; other < status; other++)
       CHECK(strcmp(meaning, fuge_status_text(other)) != 0);
   }
   CHECK_STRING(fuge_status_text(FUGE_DONE), "done");
@@ -25,7 +25,7 @@ static void test_status_texts(void) {
 }
 
 static void test_unknown_status(void) {
-  const int unknown[] = {FUGE_WARN_NO_CONTACT + 1, FUGE_ERR_MESH - 1, INT_MAX, INT_MIN};
+  const int unknown[] = {FUGE_WARN_NO_CONTACT + 1, FUGE_ERR_LAW - 1, INT_MAX, INT_MIN};
   for (int k = 0; k < 4; k++) CHECK_STRING(fuge_status_text(unknown[k]), "unknown status");
 }
 
