@@ -31,6 +31,11 @@
  * body about to tip) is not: the solution has one of the possible values, with
  * FUGE_WARN_NOT_UNIQUE.  Every engine solves every problem of this form.
  *
+ * With a matrix each point may have a law: a spring of compliance D_k, (alpha + D) f in place
+ * of alpha f, and limits of its force at both stops, beyond which it gives way, f = u with
+ * c <= 0 and f = -l with c >= d; a motion may have a spring, w - S q in place of w.  See
+ * fuge_set_compliance, fuge_set_limits and fuge_set_motion_stiffness.
+ *
  * CONVENTIONS.  Matrices are column-major: alpha(i,k) is alpha[i + k*lda].  Points, rows,
  * degrees of freedom and modes count from 0, in messages too, unless an argument says
  * otherwise; lines of files, and what is quoted from them, count from 1.  Every function
