@@ -130,7 +130,7 @@ contains
     call set_gaps(operator, problem)
     problem%resultant = [1.0_dp + real(rank, dp)]
     call solver%solve(operator, problem, solution, info)
-    call expect(info, FUGE_ERR_OPTION, 'a load, or a prescribed motion, differs')
+    call expect(info, FUGE_ERR_OPTION, 'a load, a prescribed motion or the stiffness of one differs')
     call set_gaps(operator, problem)
     call solver%solve(operator, problem, solution, info, fuge_options(tolerance=merge(2.0_dp, 1.0e-8_dp, rank == 1)))
     call expect(info, FUGE_ERR_OPTION, 'rank 1: tolerance = ')
@@ -141,7 +141,8 @@ contains
     ! On one rank only.
     if (rank == 1) allocate (problem%gap_upper(operator%points()), source=1.0_dp)
     call solver%solve(operator, problem, solution, info)
-    call expect(info, FUGE_ERR_OPTION, 'modes, gap_upper, excluded or prescribed are not allocated alike')
+    call expect(info, FUGE_ERR_OPTION, 'modes, gap_upper, excluded, prescribed or the laws of points are not ' &
+                //'allocated alike')
     call set_gaps(operator, problem)
     ! Modes of two bodies: the left and the right half.
     allocate (problem%modes(operator%points(), 2))
