@@ -116,7 +116,7 @@ contains
     call set_bounds(self, canonical, softest)
     if (canonical%has_limits()) call start_from_corners(self, canonical)
     self%signs_fixed = .false.
-    call turn_negative_rows(self)
+    call turn_negative_rows(self, n + m)
     if (m == 0) call fix_signs(self)
     call subtract_rows_from_last(self)
   end subroutine start_canonical
@@ -262,13 +262,14 @@ contains
     end associate
   end subroutine start_from_corners
 
-  !> Rows whose artificial variable would be negative are negated.
-  pure subroutine turn_negative_rows(self)
+  !> Of the first `rows`, those whose artificial variable would be negative are negated.
+  pure subroutine turn_negative_rows(self, rows)
     class(paper_tableau), intent(inout) :: self
+    integer, intent(in) :: rows
     integer :: i, last
 
     last = size(self%table, 2)
-    do i = 1, size(self%basis)
+    do i = 1, rows
       if (.not. (is_artificial(self%bounds%n, self%bounds%m, self%basis(i)) .and. self%table(i, last) < 0.0_dp)) cycle
       self%table(i, :) = -self%table(i, :)
       if (i <= self%bounds%n) self%bounds%sign(i) = -self%bounds%sign(i)
@@ -362,7 +363,8 @@ contains
     end if
     if (.not. self%signs_fixed) then
       if (self%balanced()) call fix_signs(self)
-      call turn_negative_rows(self)
+      ! In the equilibrium rows the ratio test leaves nothing negative but rounding.
+      call turn_negative_rows(self, self%bounds%n)
     end if
     call clear_rounding(self)
     call subtract_rows_from_last(self)

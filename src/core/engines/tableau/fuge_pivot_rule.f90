@@ -103,6 +103,8 @@ contains
       if (basic(column) .or. bounds%fixed(column)) cycle
       entries(:bounds%m) = table(n + 1:n + bounds%m, column)
       entries(bounds%m + 1) = -sum(entries(:bounds%m), mask=artificial)
+      ! Rounding of an elimination: two such columns would go in and out for ever.
+      if (abs(entries(bounds%m + 1)) <= ENTRY_TOLERANCE*sum(abs(entries(:bounds%m)))) cycle
       sense = improving_sense(entries, artificial, bounds%free(column))
       if (sense == 0) cycle
       call ratio_test(sense*entries(:bounds%m), right, .not. bounds%free(basis(n + 1:)), &
