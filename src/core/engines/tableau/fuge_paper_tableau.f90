@@ -347,8 +347,8 @@ contains
     end if
   end subroutine choose
 
-  !> Step 2: bring `column` into the basis in `row`, or in -`row` if the variable there leaves at its upper bound; with 0
-  !> the variable in `column` goes from one bound to the other.
+  !> Step 2: bring `column` into the basis in `row`, or in -`row` if the variable there leaves at its upper bound; with
+  !> 0 the variable in `column` goes from one bound to the other.
   pure subroutine pivot(self, column, row)
     class(paper_tableau), intent(inout) :: self
     integer, intent(in) :: column, row
