@@ -7,7 +7,7 @@ module law_reference
   implicit none
   private
 
-  public :: energy_of, enumerate_laws, law_violation, random_law_problem
+  public :: energy_of, enumerate_laws, law_violation, random_law_problem, try_states
 
 contains
 

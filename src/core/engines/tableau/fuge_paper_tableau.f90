@@ -4,18 +4,18 @@
 !> the sum of the artificial variables. Columns are numbered as in `fuge_column_numbers`; those of the artificials are
 !> never stored, only the vector of basis columns. One more column holds the right-hand side.
 !>
-!> Beyond the paper, motions and the forces of tied points are free of sign, and a play is an upper bound of c_k.
-!> Every point is described from the stop that it was last at; where that is the upper one its variables are
-!> complemented, d - c for c and -f for f. So no bounded variable is ever negative, and every variable outside of the
-!> basis is zero.
+!> Beyond the paper, motions and the forces of tied points are free of sign, a play is an upper bound of c_k and a limit
+!> one of f_k. Every point is described from the corner of its law that it was last at (`fuge_variable_bounds`): at the
+!> upper stop its variables are complemented, d - c for c and -f for f, at a limit they are u - f for f and -c for c. So
+!> no bounded variable is ever negative, and every variable outside of the basis is zero.
 !>
 !> Lengths and forces are scaled by powers of two, which changes no digit and makes every comparison relative to the
 !> data.
 module fuge_paper_tableau
   use fuge_canonical_problem, only: canonical_problem
   use fuge_column_numbers, only: artificial_column, force_column, gap_column, rigid_column, is_artificial, is_force, &
-    partner_column, point_of
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+    partner_column
+  use fuge_contact_states, only: is_at_stop, FUGE_OPEN
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
@@ -28,13 +28,15 @@ module fuge_paper_tableau
 
   public :: run_phase_one
 
+  !> A limit beyond this power of two, as a multiple of the forces that cause displacements of the size of the problem,
+  !> counts as none: to describe a force from there would cost its digits.
+  integer, parameter :: FAR_EXPONENT = 30
+
   type, public :: paper_tableau
     !> Entries of the tableau with its right-hand side and last row, scaled, (n+m+1, 2n+m+1).
     real(dp), allocatable :: table(:, :)
     !> Column number in the basis for each row, (n+m).
     integer, allocatable :: basis(:)
-    !> Points described from their upper stop, (n).
-    logical, allocatable :: complemented(:)
     !> The constant added to every gap: for the paper's problem to keep right-hand sides and v_0 non-negative, otherwise
     !> to count gaps from the lowest; length.
     real(dp) :: shift = 0.0_dp
@@ -90,6 +92,7 @@ contains
     class(paper_tableau), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     integer, intent(out) :: status
+    real(dp) :: softest
     integer :: n, m, j
 
     n = size(canonical%gap)
@@ -100,7 +103,7 @@ contains
     end if
     call allocate_table(self, n, m, n + m, status)
     if (status /= FUGE_DONE) return
-    call set_general_scales(self, canonical)
+    call set_general_scales(self, canonical, softest)
     call fill(self, canonical%alpha, canonical%datum)
     associate (t => self%table, force => self%force_exponent, length => self%length_exponent)
       do j = 1, m
@@ -110,9 +113,10 @@ contains
       t(:n, 2*n + m + 1) = scale(canonical%gap + self%shift, -length)
       t(n + 1:n + m, 2*n + m + 1) = scale(canonical%load, -force)
     end associate
-    call set_bounds(self, canonical)
+    call set_bounds(self, canonical, softest)
+    if (canonical%has_limits()) call start_from_corners(self, canonical)
     self%signs_fixed = .false.
-    call turn_negative_rows(self)
+    call turn_negative_rows(self, n + m)
     if (m == 0) call fix_signs(self)
     call subtract_rows_from_last(self)
   end subroutine start_canonical
@@ -125,13 +129,11 @@ contains
 
     if (allocated(self%table)) deallocate (self%table)
     if (allocated(self%basis)) deallocate (self%basis)
-    if (allocated(self%complemented)) deallocate (self%complemented)
-    allocate (self%table(n + m + 1, 2*n + m + 1), self%basis(n + m), self%complemented(n), stat=stat)
+    allocate (self%table(n + m + 1, 2*n + m + 1), self%basis(n + m), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (status == FUGE_DONE) call self%bounds%set(n, m, ties, status)
     if (status /= FUGE_DONE) return
     self%basis = artificial_column(n, m, [(k, k=1, n + m)])
-    self%complemented = .false.
   end subroutine allocate_table
 
   !> Fill the columns of forces and gaps in the gap rows; all else is zero.
@@ -166,11 +168,12 @@ contains
   end subroutine set_datum_and_scales
 
   !> The powers of two where motions have no sign. No shift is needed for signs, but gaps are counted from the lowest,
-  !> because a large datum would cost digits.
-  pure subroutine set_general_scales(self, canonical)
+  !> because a large datum would cost digits. `softest` is the largest coefficient of alpha without its datum.
+  pure subroutine set_general_scales(self, canonical, softest)
     class(paper_tableau), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
-    real(dp) :: load, softest, length
+    real(dp), intent(out) :: softest
+    real(dp) :: load, length
     integer :: n
 
     n = size(canonical%gap)
@@ -186,36 +189,87 @@ contains
   end subroutine set_general_scales
 
   !> The force of a tied point is free and its gap fixed; an excluded point has a free gap and no force. The force of a
-  !> point with play may have either sign until the equilibrium rows are met.
-  pure subroutine set_bounds(self, canonical)
+  !> point with play may have either sign until the equilibrium rows are met, unless there are limits.
+  pure subroutine set_bounds(self, canonical, softest)
     class(paper_tableau), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: softest
+    real(dp) :: play, limit_lower, limit_upper
     integer :: k
 
+    limit_lower = huge(limit_lower)
+    limit_upper = huge(limit_upper)
     associate (bounds => self%bounds, n => self%bounds%n)
       bounds%free(rigid_column(n, [(k, k=1, bounds%m)])) = .true.
       do k = 1, n
+        if (canonical%has_limits()) then
+          limit_lower = scaled_limit(self, canonical%limit(k), softest)
+          limit_upper = scaled_limit(self, canonical%limit_upper(k), softest)
+        end if
+        play = huge(play)
+        if (canonical%upper(k) <= 0.0_dp) then
+          play = 0.0_dp
+        else if (exponent(canonical%upper(k)) - self%length_exponent < maxexponent(1.0_dp)) then
+          if (canonical%upper(k) < huge(play)) play = scale(canonical%upper(k), -self%length_exponent)
+        end if
         if (canonical%excluded(k)) then
           bounds%free(gap_column(n, k)) = .true.
           bounds%fixed(force_column(k)) = .true.
-        else if (canonical%upper(k) <= 0.0_dp) then
+        else if (canonical%upper(k) <= 0.0_dp .and. min(limit_lower, limit_upper) >= huge(play)) then
           bounds%free(force_column(k)) = .true.
           bounds%fixed(gap_column(n, k)) = .true.
-        else if (exponent(canonical%upper(k)) - self%length_exponent < maxexponent(1.0_dp)) then
-          bounds%free(force_column(k)) = canonical%upper(k) < huge(1.0_dp)
-          if (bounds%free(force_column(k))) bounds%upper(k) = scale(canonical%upper(k), -self%length_exponent)
+        else
+          bounds%free(force_column(k)) = play < huge(play) .and. .not. canonical%has_limits()
+          call bounds%set_law(k, play, limit_lower, limit_upper)
         end if
       end do
     end associate
   end subroutine set_bounds
 
-  !> Rows whose artificial variable would be negative are negated.
-  pure subroutine turn_negative_rows(self)
+  !> A limit in the tableau's unit; huge if the force will not come near it.
+  pure function scaled_limit(self, limit, softest)
+    class(paper_tableau), intent(in) :: self
+    real(dp), intent(in) :: limit, softest
+    real(dp) :: scaled_limit
+
+    scaled_limit = 0.0_dp
+    if (.not. limit > 0.0_dp) return
+    scaled_limit = huge(limit)
+    if (limit >= huge(limit) .or. exponent(limit) - self%force_exponent >= maxexponent(limit)) return
+    if (softest > 0.0_dp .and. exponent(limit) + exponent(softest) - self%length_exponent > FAR_EXPONENT) return
+    scaled_limit = scale(limit, -self%force_exponent)
+  end function scaled_limit
+
+  !> With limits no force changes its sign: each starts at the stop to which the known forces in equilibrium press the
+  !> point, so that the equilibrium rows can be met by forces from zero to their limits. A tied point starts at the
+  !> nearer one of its limits, so that its force has a sign too.
+  pure subroutine start_from_corners(self, canonical)
     class(paper_tableau), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    integer :: k
+
+    associate (bounds => self%bounds, n => self%bounds%n)
+      do k = 1, n
+        ! One-sided points, excluded ones and tied ones without limits.
+        if (bounds%upper(k) >= huge(1.0_dp)) cycle
+        if (canonical%upper(k) <= 0.0_dp) then
+          if (canonical%limit(k) > canonical%limit_upper(k)) call complement(self, gap_column(n, k))
+          call complement(self, force_column(k))
+        else if (canonical%feasible_force(k) < 0.0_dp .or. .not. canonical%pushes(k)) then
+          call complement(self, gap_column(n, k))
+        end if
+      end do
+    end associate
+  end subroutine start_from_corners
+
+  !> Of the first `rows`, those whose artificial variable would be negative are negated.
+  pure subroutine turn_negative_rows(self, rows)
+    class(paper_tableau), intent(inout) :: self
+    integer, intent(in) :: rows
     integer :: i, last
 
     last = size(self%table, 2)
-    do i = 1, size(self%basis)
+    do i = 1, rows
       if (.not. (is_artificial(self%bounds%n, self%bounds%m, self%basis(i)) .and. self%table(i, last) < 0.0_dp)) cycle
       self%table(i, :) = -self%table(i, :)
       if (i <= self%bounds%n) self%bounds%sign(i) = -self%bounds%sign(i)
@@ -223,39 +277,43 @@ contains
   end subroutine turn_negative_rows
 
   !> Once the equilibrium rows are met: points whose force pulls are at their upper stop, and from here on no sign may
-  !> change. This basis is the first one for the breaking of ties.
+  !> change. This basis is the first one for the breaking of ties, which lower a force at its limit and raise others.
   pure subroutine fix_signs(self)
     class(paper_tableau), intent(inout) :: self
     integer :: i, n
 
     n = self%bounds%n
     do i = n + 1, size(self%basis)
+      if (.not. self%bounds%free(self%basis(i))) cycle
       if (self%bounds%upper_bound(partner_column(n, self%basis(i))) >= huge(1.0_dp)) cycle
-      if (self%table(i, size(self%table, 2)) < 0.0_dp) call complement(self, self%basis(i))
+      if (self%table(i, size(self%table, 2)) < 0.0_dp) call complement(self, partner_column(n, self%basis(i)))
     end do
     where (self%bounds%upper < huge(1.0_dp)) self%bounds%free(:n) = .false.
-    self%bounds%first(n + 1:) = self%basis(n + 1:)
+    associate (first => self%basis(n + 1:), values => self%table(n + 1:size(self%basis), size(self%table, 2)))
+      self%bounds%first(n + 1:) = first
+      self%bounds%sign(n + 1:) = merge(-1.0_dp, 1.0_dp, values > 0.5_dp*self%bounds%upper_bound(first))
+    end associate
     self%signs_fixed = .true.
   end subroutine fix_signs
 
-  !> Describe a point from its other stop: d - c for c and -f for f.
-  pure subroutine complement(self, point)
+  !> Describe a point from the corner of its law where the variable in `column`, its gap or its force, is at its bound:
+  !> that variable is counted from there, and its partner changes its sign too.
+  pure subroutine complement(self, column)
     class(paper_tableau), intent(inout) :: self
-    integer, intent(in) :: point
+    integer, intent(in) :: column
     integer :: i, last, rows
 
     last = size(self%table, 2)
     rows = size(self%basis)
-    associate (t => self%table, bounds => self%bounds, gap => gap_column(self%bounds%n, point), &
-               force => force_column(point))
-      t(:rows, last) = t(:rows, last) - bounds%upper(point)*t(:rows, gap)
-      t(:rows, gap) = -t(:rows, gap)
-      t(:rows, force) = -t(:rows, force)
+    associate (t => self%table, bounds => self%bounds, partner => partner_column(self%bounds%n, column))
+      t(:rows, last) = t(:rows, last) - bounds%upper_bound(column)*t(:rows, column)
+      t(:rows, column) = -t(:rows, column)
+      t(:rows, partner) = -t(:rows, partner)
       do i = 1, rows
-        if (self%basis(i) == gap .or. self%basis(i) == force) t(i, :) = -t(i, :)
+        if (self%basis(i) == column .or. self%basis(i) == partner) t(i, :) = -t(i, :)
       end do
-      where (bounds%first == gap .or. bounds%first == force) bounds%sign = -bounds%sign
-      self%complemented(point) = .not. self%complemented(point)
+      where (bounds%first == column .or. bounds%first == partner) bounds%sign = -bounds%sign
+      call bounds%turn_corner(column)
     end associate
   end subroutine complement
 
@@ -289,8 +347,8 @@ contains
     end if
   end subroutine choose
 
-  !> Step 2: bring `column` into the basis in `row`, or in -`row` if the gap there leaves at its upper stop; with 0 the
-  !> gap `column` goes from one stop to the other.
+  !> Step 2: bring `column` into the basis in `row`, or in -`row` if the variable there leaves at its upper bound; with
+  !> 0 the variable in `column` goes from one bound to the other.
   pure subroutine pivot(self, column, row)
     class(paper_tableau), intent(inout) :: self
     integer, intent(in) :: column, row
@@ -298,14 +356,15 @@ contains
     if (row > 0) then
       call eliminate(self, column, row)
     else if (row < 0) then
-      call complement(self, point_of(self%bounds%n, self%basis(-row)))
+      call complement(self, self%basis(-row))
       call eliminate(self, column, -row)
     else
-      call complement(self, point_of(self%bounds%n, column))
+      call complement(self, column)
     end if
     if (.not. self%signs_fixed) then
       if (self%balanced()) call fix_signs(self)
-      call turn_negative_rows(self)
+      ! In the equilibrium rows the ratio test leaves nothing negative but rounding.
+      call turn_negative_rows(self, self%bounds%n)
     end if
     call clear_rounding(self)
     call subtract_rows_from_last(self)
@@ -359,16 +418,15 @@ contains
     balanced = .not. any(is_artificial(self%bounds%n, self%bounds%m, self%basis(self%bounds%n + 1:)))
   end function balanced
 
-  !> State of every point, (n): at a stop if its force is in the basis, else open.
+  !> State of every point, (n): at a stop if its force is in the basis, else limited or open as at its corner.
   pure function states(self) result(state)
     class(paper_tableau), intent(in) :: self
     integer :: state(self%bounds%n)
     integer :: i
 
-    state = FUGE_OPEN
+    state = merge(FUGE_OPEN, self%bounds%corner, is_at_stop(self%bounds%corner))
     do i = 1, size(self%basis)
-      if (is_force(self%bounds%n, self%basis(i))) state(self%basis(i)) = &
-        merge(FUGE_AT_UPPER_STOP, FUGE_AT_LOWER_STOP, self%complemented(self%basis(i)))
+      if (is_force(self%bounds%n, self%basis(i))) state(self%basis(i)) = self%bounds%touching_state(self%basis(i))
     end do
   end function states
 
@@ -390,7 +448,7 @@ contains
   end function remaining
 
   !> An entry in the caller's units, as the paper prints it; row n+m+1 is the z row,
-  !> column 2n+m+1 the right-hand side. Complemented points stay complemented.
+  !> column 2n+m+1 the right-hand side. Variables are those of the corner of each point.
   pure function entry_at(self, row, column) result(value)
     class(paper_tableau), intent(in) :: self
     integer, intent(in) :: row, column
@@ -461,7 +519,7 @@ contains
       if (options%keep_history) call history%record(tableau%basis, tableau%z(), status)
       if (pivots == 0 .and. tableau%remaining() > 0.0_dp) start = tableau%remaining()
       if (pivots > 0 .and. status == FUGE_DONE) call tell_monitor(monitor, pivots, tableau%remaining()/start, &
-                                                                  count(is_force(size(state), tableau%basis)), status)
+                                                                  count(tableau%states() /= FUGE_OPEN), status)
       if (tableau%finished() .or. status /= FUGE_DONE) exit
       call tableau%choose(options%pivot_rule, column, row)
       if (column == 0) then

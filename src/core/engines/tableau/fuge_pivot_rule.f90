@@ -5,7 +5,7 @@
 !> paper's tables take the lowest that drives an artificial out, else the lowest. Ties of the ratio test are broken
 !> lexicographically, which keeps degenerate problems from cycling.
 !>
-!> Beyond the paper, a variable may be free of sign or have an upper bound (the play of a gap):
+!> Beyond the paper, a variable may be free of sign or have an upper bound (the play of a gap, the limit of a force):
 !> `fuge_variable_bounds`. A column that reaches its own bound first leaves the basis unchanged.
 !>
 !> The tableau is scaled: its lengths and forces are of order 1, so that the tolerances here are relative to the data.
@@ -79,8 +79,9 @@ contains
   !> The next pivot as long as an artificial is left in the equilibrium rows.
   !>
   !> Looks at these rows alone, by least column numbers (R. G. Bland, Mathematics of Operations Research 2, 1977), which
-  !> cannot cycle; for the paper's problem that is F_1. An artificial left at zero is exchanged for the largest entry of
-  !> its row.
+  !> cannot cycle; for the paper's problem that is F_1. A force that reaches its own limit as early as any other goes
+  !> there, which brings the equilibrium nearer. An artificial left at zero is exchanged for the largest entry of its
+  !> row.
   !>
   !> Arguments as for `select_pivot`; `column` = 0 if no forces can carry the resultant.
   pure subroutine select_for_equilibrium(table, basis, bounds, column, row)
@@ -88,7 +89,7 @@ contains
     integer, intent(in) :: basis(:)
     type(variable_bounds), intent(in) :: bounds
     integer, intent(out) :: column, row
-    real(dp) :: entries(bounds%m + 1), right(bounds%m), no_bound(bounds%m), step
+    real(dp) :: entries(bounds%m + 1), right(bounds%m), step
     logical :: basic(size(bounds%free)), artificial(bounds%m), tied(0:bounds%m)
     integer :: j, n, sense
 
@@ -97,18 +98,21 @@ contains
     basic(basis) = .true.
     artificial = is_artificial(n, bounds%m, basis(n + 1:))
     right = table(n + 1:n + bounds%m, size(table, 2))
-    no_bound = huge(no_bound)
     row = 0
     do column = 1, n
       if (basic(column) .or. bounds%fixed(column)) cycle
       entries(:bounds%m) = table(n + 1:n + bounds%m, column)
       entries(bounds%m + 1) = -sum(entries(:bounds%m), mask=artificial)
+      ! Rounding of an elimination: two such columns would go in and out for ever.
+      if (abs(entries(bounds%m + 1)) <= ENTRY_TOLERANCE*sum(abs(entries(:bounds%m)))) cycle
       sense = improving_sense(entries, artificial, bounds%free(column))
       if (sense == 0) cycle
-      call ratio_test(sense*entries(:bounds%m), right, .not. bounds%free(basis(n + 1:)), no_bound, huge(step), step, &
-                      tied)
+      call ratio_test(sense*entries(:bounds%m), right, .not. bounds%free(basis(n + 1:)), &
+                      bounds%upper_bound(basis(n + 1:)), bounds%upper_bound(column), step, tied)
       if (.not. any(tied)) cycle
-      row = n + minloc(basis(n + 1:), dim=1, mask=tied(1:))
+      if (tied(0)) return
+      j = minloc(basis(n + 1:), dim=1, mask=tied(1:))
+      row = sign(n + j, merge(1, -1, sense*entries(j) > 0.0_dp))
       return
     end do
     column = 0

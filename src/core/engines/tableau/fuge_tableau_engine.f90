@@ -58,7 +58,8 @@ contains
   end subroutine solve_by_tableau
 
   !> Refuse what the tableau does not solve: numbers that overflow (FUGE_ERR_OVERFLOW), an alpha without a unique
-  !> solution (FUGE_ERR_NOT_DEFINITE).
+  !> solution (FUGE_ERR_NOT_DEFINITE). A point with limits may have any force between them, so all points that have a
+  !> force at all count; those whose limits are zero are excluded.
   subroutine check_solvable(canonical, info)
     type(canonical_problem), intent(in) :: canonical
     type(fuge_info), intent(inout) :: info
