@@ -122,6 +122,8 @@ contains
       call stalls%renew_if_fewer(wrong)
       if (stalls%has_stalled()) then
         if (scene%has_limits()) then
+          ! Forces to start from on a finer grid are worth no exchanges of single points.
+          if (settings%coarse_grid) exit
           call exchange_single_limits(operator, settings, preconditioner, scene, monitor, iterate, info)
         else
           call exchange_single_points(operator, settings, preconditioner, scene, monitor, iterate, info)
@@ -387,6 +389,7 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: feasible(:)
+    real(dp) :: excess
     logical, allocatable :: locked(:)
     integer :: newest, stat
 
@@ -396,8 +399,13 @@ contains
     if (stat /= 0 .or. info%failed()) return
     locked = .false.
     newest = 0
-    call set_balanced_forces(scene, iterate)
     call make_feasible(operator, scene, iterate, info)
+    ! Forces of the right resultants may be beyond their limits.
+    excess = greatest_excess(scene, iterate)
+    if ((allocated(scene%modes) .or. excess > 0.0_dp) .and. .not. info%failed()) then
+      call set_balanced_forces(scene, iterate)
+      call make_feasible(operator, scene, iterate, info)
+    end if
     do while (.not. info%failed())
       feasible = iterate%force
       call solve_on_contact_set(operator, settings, preconditioner, scene, .true., monitor, iterate, info)

@@ -158,7 +158,7 @@ contains
       call restore_resultants(scene, iterate, info)
     else if (.not. iterate%prescribed) then
       if (scene%has_limits()) then
-        call restore_load_within_limits(iterate)
+        call restore_load_within_limits(scene, iterate)
       else
         call restore_load(iterate)
       end if
@@ -223,23 +223,31 @@ contains
     end if
   end function force_in_range
 
-  !> As `restore_load`, where some forces are at their limits and stay there, unless the others would have to pull: then
-  !> all points that have a force share the load.
-  subroutine restore_load_within_limits(iterate)
+  !> As `restore_load`, where some forces are at their limits and stay there. Forces that are too large together shrink by
+  !> one factor; where they are too small, what they lack of their limits does, so that all stay within these. Where the
+  !> others would have to pull, all points that have a force share the load.
+  subroutine restore_load_within_limits(scene, iterate)
+    type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
-    real(dp) :: sums(3)
+    real(dp) :: sums(4), factor, rest
 
     sums = [sum(iterate%force, mask=iterate%contact), sum(iterate%force, mask=.not. iterate%contact), &
-            real(count(iterate%contact), dp)]
+            real(count(iterate%contact), dp), sum(min(scene%limit, 1.0_dp), mask=iterate%contact)]
     call iterate%segments%space%add(sums)
-    if (sums(2) >= 1.0_dp .or. .not. sums(3) > 0.0_dp) then
+    rest = 1.0_dp - sums(2)
+    if (rest <= 0.0_dp .or. .not. sums(3) > 0.0_dp) then
       iterate%contact = iterate%contact .or. iterate%limited /= 0
       iterate%limited = 0
       call restore_load(iterate)
+    else if (rest > sums(1) .and. rest < sums(4)) then
+      factor = (sums(4) - rest)/(sums(4) - sums(1))
+      where (iterate%contact)
+        iterate%force = min(scene%limit, 1.0_dp) - factor*(min(scene%limit, 1.0_dp) - iterate%force)
+      end where
     else if (sums(1) > 0.0_dp) then
-      where (iterate%contact) iterate%force = iterate%force*((1.0_dp - sums(2))/sums(1))
+      where (iterate%contact) iterate%force = iterate%force*(rest/sums(1))
     else
-      where (iterate%contact) iterate%force = (1.0_dp - sums(2))/sums(3)
+      where (iterate%contact) iterate%force = rest/sums(3)
     end if
   end subroutine restore_load_within_limits
 
