@@ -58,9 +58,14 @@ contains
                   //'leave keep_history out')
       return
     end if
-    if (problem%has_law()) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the iteration knows no compliance, limits or springs on motions: use a ' &
-                  //'dense operator and FUGE_ACTIVE_SET')
+    if (problem%has_springs()) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the iteration knows no compliance and no springs on motions: use a dense ' &
+                  //'operator and FUGE_ACTIVE_SET')
+      return
+    end if
+    space = operator%ranks()
+    if (problem%has_limits() .and. .not. space%is_alone()) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'ranks know no limits of forces: solve on one process')
       return
     end if
     self%is_general = is_general(problem)

@@ -50,7 +50,8 @@ contains
     type(fuge_problem), intent(in) :: problem
     logical :: is_general
 
-    is_general = allocated(problem%modes) .or. allocated(problem%gap_upper) .or. allocated(problem%excluded)
+    is_general = allocated(problem%modes) .or. allocated(problem%gap_upper) .or. allocated(problem%excluded) &
+                 .or. problem%has_limits()
   end function is_general
 
   !> Solve a contact problem by iteration.

@@ -10,9 +10,12 @@ module fuge_contact_set_search
   use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, is_accurate, make_feasible, rounding_force
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, &
+    FUGE_OPEN
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
+  use fuge_limited_points, only: exchange_limited_points, greatest_excess, return_deepest, set_balanced_forces, &
+    step_to_limit
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
@@ -118,11 +121,21 @@ contains
       call stalls%spend()
       call stalls%renew_if_fewer(wrong)
       if (stalls%has_stalled()) then
-        call exchange_single_points(operator, settings, preconditioner, scene, monitor, iterate, info)
+        if (scene%has_limits()) then
+          ! Forces to start from on a finer grid are worth no exchanges of single points.
+          if (settings%coarse_grid) exit
+          call exchange_single_limits(operator, settings, preconditioner, scene, monitor, iterate, info)
+        else
+          call exchange_single_points(operator, settings, preconditioner, scene, monitor, iterate, info)
+        end if
         exit
       end if
-      call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
-                                 in_row .and. 2*stalls%left > MAX_STALLS, iterate, info)
+      if (scene%has_limits()) then
+        call exchange_limited_points(scene, penetration_noise(settings, iterate), iterate)
+      else
+        call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
+                                   in_row .and. 2*stalls%left > MAX_STALLS, iterate, info)
+      end if
       if (info%failed()) exit
       iterate%least_compliance = 0.0_dp
       ! The residual of another set tells nothing of this one.
@@ -365,6 +378,53 @@ contains
     if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
   end subroutine exchange_single_points
 
+  !> As exchange_single_points, where forces have limits: a step ends where the first force reaches zero or its limit, and
+  !> at the solution of a set the point furthest on the wrong side of its stop comes back to it.
+  subroutine exchange_single_limits(operator, settings, preconditioner, scene, monitor, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_preconditioner), intent(inout) :: preconditioner
+    type(contact_scene), intent(in) :: scene
+    class(fuge_monitor), intent(inout) :: monitor
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: feasible(:)
+    real(dp) :: excess
+    logical, allocatable :: locked(:)
+    integer :: newest, stat
+
+    allocate (feasible(size(scene%gap)), locked(size(scene%gap)), stat=stat)
+    call require_memory(stat, 'the active-set method on', size(scene%gap), 'points', info)
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    locked = .false.
+    newest = 0
+    call make_feasible(operator, scene, iterate, info)
+    ! Forces of the right resultants may be beyond their limits.
+    excess = greatest_excess(scene, iterate)
+    if ((allocated(scene%modes) .or. excess > 0.0_dp) .and. .not. info%failed()) then
+      call set_balanced_forces(scene, iterate)
+      call make_feasible(operator, scene, iterate, info)
+    end if
+    do while (.not. info%failed())
+      feasible = iterate%force
+      call solve_on_contact_set(operator, settings, preconditioner, scene, .true., monitor, iterate, info)
+      if (info%failed()) exit
+      if (greatest_excess(scene, iterate) > 0.0_dp) then
+        call step_to_limit(scene, feasible, newest, locked, iterate)
+      else
+        if (newest > 0) locked = locked .and. locked(newest)
+        if (.not. iterate%converged) exit
+        call return_deepest(scene, penetration_noise(settings, iterate), locked, iterate, newest)
+        if (newest == 0) exit
+      end if
+      iterate%least_compliance = 0.0_dp
+      call make_feasible(operator, scene, iterate, info)
+    end do
+    if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
+    if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
+  end subroutine exchange_single_limits
+
   !> Points stay locked only if the point that joined last, which another rank may have, is locked.
   subroutine keep_lock(scene, newest, locked)
     type(contact_scene), intent(in) :: scene
@@ -418,6 +478,9 @@ contains
 
     state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, iterate%contact)
     if (allocated(iterate%at_upper)) where (iterate%contact .and. iterate%at_upper) state = FUGE_AT_UPPER_STOP
+    if (.not. allocated(iterate%limited)) return
+    where (iterate%limited > 0) state = FUGE_LIMITED_LOWER
+    where (iterate%limited < 0) state = FUGE_LIMITED_UPPER
   end subroutine find_states
 
 end module fuge_contact_set_search

@@ -3,7 +3,7 @@
 module fuge_general_scene
   use fuge_canonical_problem, only: canonical_problem
   use fuge_constants, only: LARGEST_EXPONENT
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap, rounding_force
+  use fuge_contact_iterate, only: clip_forces, contact_iterate, deformed_gap, rounding_force
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_contact_segments, only: contact_segments
   use fuge_contact_set_search, only: find_states
@@ -54,6 +54,10 @@ contains
       scene%play = canonical%upper
       where (canonical%upper < huge(1.0_dp)) scene%play = canonical%upper/scaling%load
     end if
+    if (scene%has_limits()) then
+      scene%limit = scaled_limit(canonical%limit, scaling%load)
+      scene%limit_upper = scaled_limit(canonical%limit_upper, scaling%load)
+    end if
     if (allocated(scene%excluded)) then
       scene%excluded = canonical%excluded
       where (canonical%excluded) scene%gap = OUT_OF_REACH
@@ -66,6 +70,15 @@ contains
     end if
   end subroutine set_general_scene
 
+  !> A limit of a force in units of the scene, huge where there is none.
+  elemental function scaled_limit(limit, load) result(scaled)
+    real(dp), intent(in) :: limit, load
+    real(dp) :: scaled
+
+    scaled = huge(scaled)
+    if (limit < min(load, 1.0_dp)*huge(scaled)) scaled = limit/load
+  end function scaled_limit
+
   !> Allocate what the scene has. Error: FUGE_ERR_MEMORY.
   subroutine allocate_scene(canonical, scene, info)
     type(canonical_problem), intent(in) :: canonical
@@ -77,10 +90,11 @@ contains
     n = size(canonical%gap)
     m = size(canonical%load)
     excludes = canonical%space%anywhere(any(canonical%excluded))
-    has_play = canonical%space%anywhere(any(canonical%upper < huge(1.0_dp)))
+    has_play = canonical%space%anywhere(any(canonical%upper < huge(1.0_dp))) .or. canonical%has_limits()
     allocate (scene%gap(n), stat=stat)
     if (stat == 0 .and. excludes) allocate (scene%excluded(n), stat=stat)
     if (stat == 0 .and. has_play) allocate (scene%play(n), stat=stat)
+    if (stat == 0 .and. canonical%has_limits()) allocate (scene%limit(n), scene%limit_upper(n), stat=stat)
     if (stat == 0 .and. scene%prescribed .and. m > 0) then
       allocate (scene%modes(n, m), scene%load(m), scene%balance(n), stat=stat)
     end if
@@ -155,10 +169,15 @@ contains
     call canonical%space%agree(info)
     if (info%failed()) return
     call find_states(iterate, reduced%state)
-    call drop_rounding(scene, reduced%state, iterate, info)
+    if (scene%has_limits()) then
+      call clip_forces(scene, iterate)
+    else
+      call drop_rounding(scene, reduced%state, iterate, info)
+    end if
     if (info%failed()) return
     reduced%force = scaling%load*iterate%force
     call set_gaps(scene, scaling, canonical%upper, iterate, reduced)
+    if (scene%has_limits()) call set_limited(scene, scaling, canonical, iterate, reduced)
     if (allocated(scene%modes)) then
       reduced%motion = scaling%load*iterate%rigid_motion
     else
@@ -250,6 +269,33 @@ contains
       if (reduced%state(k) == FUGE_AT_UPPER_STOP) reduced%gap(k) = upper(k)
     end do
   end subroutine set_gaps
+
+  !> Forces at their limits, and gaps where forces have limits: beyond its stop at a point that gives way, and without
+  !> bound at a stop that has no force.
+  pure subroutine set_limited(scene, scaling, canonical, iterate, reduced)
+    type(contact_scene), intent(in) :: scene
+    type(scene_scaling), intent(in) :: scaling
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_iterate), intent(in) :: iterate
+    type(contact_solution), intent(inout) :: reduced
+    real(dp) :: gap
+    integer :: k
+
+    do k = 1, size(scene%gap)
+      if (scene%gap(k) >= OUT_OF_REACH) cycle
+      gap = scaling%load*deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
+      select case (iterate%limited(k))
+      case (1)
+        reduced%force(k) = canonical%limit(k)
+        reduced%gap(k) = min(gap, 0.0_dp)
+      case (-1)
+        reduced%force(k) = -canonical%limit_upper(k)
+        reduced%gap(k) = max(gap, canonical%upper(k))
+      case default
+        if (.not. (iterate%contact(k) .or. canonical%pushes(k))) reduced%gap(k) = min(gap, canonical%upper(k))
+      end select
+    end do
+  end subroutine set_limited
 
   !> c = g + A f - R q at the points that are excluded; `motion` q (m) in the modes R of the problem, `displacement` (n)
   !> in units of the scene. Error: FUGE_ERR_MEMORY. The arguments are nine, because excluded points need the problem

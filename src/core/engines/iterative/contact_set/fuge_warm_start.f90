@@ -37,7 +37,7 @@ module fuge_warm_start
     !> Resultants and motions in all modes, (m).
     real(dp), allocatable :: resultant(:), motion(:)
     !> Numbers that differ for different gaps, modes and points.
-    real(dp) :: fingerprint(4) = 0.0_dp
+    real(dp) :: fingerprint(6) = 0.0_dp
   end type load_step
 
   !> The last two solutions of a solver, and what the last solve from coarser grids cost.
@@ -143,17 +143,19 @@ contains
               .or. any(abs(step%fingerprint - last%fingerprint) > 0.0_dp)
   end function differs
 
-  !> Sums that hardly any change of gaps, plays, modes or excluded points leaves as they are.
+  !> Sums that hardly any change of gaps, plays, modes, limits or excluded points leaves as they are.
   function fingerprint(problem, space) result(sums)
     type(fuge_problem), intent(in) :: problem
     type(point_space), intent(in) :: space
-    real(dp) :: sums(4)
+    real(dp) :: sums(6)
     integer :: j
 
     sums = 0.0_dp
     sums(1) = mixed_sum(problem%gap)
     if (allocated(problem%gap_upper)) sums(2) = mixed_sum(min(problem%gap_upper, huge(1.0_dp)))
     if (allocated(problem%excluded)) sums(3) = mixed_sum(merge(1.0_dp, 0.0_dp, problem%excluded))
+    if (allocated(problem%limit)) sums(5) = mixed_sum(min(problem%limit, huge(1.0_dp)))
+    if (allocated(problem%limit_upper)) sums(6) = mixed_sum(min(problem%limit_upper, huge(1.0_dp)))
     if (allocated(problem%modes)) then
       do j = 1, size(problem%modes, 2)
         sums(4) = sums(4) + real(j, dp)*mixed_sum(problem%modes(:, j))

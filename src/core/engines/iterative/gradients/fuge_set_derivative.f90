@@ -6,7 +6,7 @@ module fuge_set_derivative
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: max_abs_over
-  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_contact_states, only: is_at_stop
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
@@ -48,7 +48,7 @@ contains
     call set_scene(operator, canonical, gap_change, load_change, scene, info)
     if (info%failed()) return
     if (allocated(scene%modes)) then
-      call find_unresisted_basis(canonical%modes, state /= FUGE_OPEN, unresisted, canonical%space)
+      call find_unresisted_basis(canonical%modes, is_at_stop(state), unresisted, canonical%space)
       call refuse_unresisted(scene%load, unresisted, info)
       if (info%failed()) return
     end if
@@ -58,7 +58,7 @@ contains
     if (stat /= 0 .or. info%failed()) return
     call start_iterate(iterate, scene, info=info)
     if (info%failed()) return
-    iterate%contact = state /= FUGE_OPEN
+    iterate%contact = is_at_stop(state)
     call solve_on_set(operator, scene, tolerance, iterate, info)
     if (info%failed()) return
     call find_gaps_and_motions(operator, canonical, scene, gap_change, load_change, iterate, gap, motion)

@@ -4,6 +4,7 @@ module fuge_wrong_points
   use fuge_contact_iterate, only: contact_iterate, deformed_gap
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_kinds, only: dp
+  use fuge_limited_points, only: choose_limited_contact, count_wrong_limited, excess_is_decided, greatest_excess
   use fuge_set_exchange, only: exchange
   use fuge_shared_exchange, only: exchange_in_line
   use fuge_status, only: fuge_info, require_memory
@@ -26,6 +27,10 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     integer :: k
 
+    if (scene%has_limits()) then
+      call choose_limited_contact(scene, iterate)
+      return
+    end if
     iterate%contact = iterate%force > 0.0_dp
     if (allocated(scene%play)) then
       do k = 1, size(scene%play)
@@ -49,6 +54,10 @@ contains
     integer :: wrong
     integer :: k
 
+    if (scene%has_limits()) then
+      wrong = count_wrong_limited(scene, noise, iterate)
+      return
+    end if
     if (.not. allocated(scene%play)) then
       wrong = count(iterate%contact .and. iterate%force < -iterate%tension_noise) &
               + count(.not. iterate%contact &
@@ -232,6 +241,10 @@ contains
     real(dp) :: tension
     integer :: k
 
+    if (scene%has_limits()) then
+      tension = greatest_excess(scene, iterate)
+      return
+    end if
     if (.not. allocated(scene%play)) then
       tension = scene%rows%largest(max(0.0_dp, -minval(iterate%force)))
       return
@@ -254,6 +267,10 @@ contains
     real(dp) :: force_error(LANES), tension(LANES), values(LANES), extremes(2)
     integer :: i, k
 
+    if (scene%has_limits()) then
+      decided = excess_is_decided(scene, iterate, decisive)
+      return
+    end if
     force_error = 0.0_dp
     tension = 0.0_dp
     if (allocated(scene%play)) then

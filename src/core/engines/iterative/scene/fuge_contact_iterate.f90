@@ -13,7 +13,7 @@ module fuge_contact_iterate
   implicit none
   private
 
-  public :: clip_forces, compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
+  public :: overlap_at, clip_forces, compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
     find_penetration, is_accurate, largest_rigid_magnitude, make_feasible, project_residual, remove_rigid_part, &
     rounding_force, start_iterate
 
@@ -34,6 +34,9 @@ module fuge_contact_iterate
     logical, allocatable :: contact(:)
     !> The contact is at the upper stop, (n); allocated where points have one.
     logical, allocatable :: at_upper(:)
+    !> Points whose force is at its limit of the lower stop, 1, or of the upper one, -1, else 0, (n): they are open, but
+    !> have a force. Allocated where forces have limits.
+    integer, allocatable :: limited(:)
     !> No translation is free, or it is one of several modes.
     logical :: prescribed = .false.
     !> The rigid motion: the mean of gap plus displacement over the contact set; 0 if prescribed.
@@ -100,6 +103,7 @@ contains
     allocate (iterate%force(n), iterate%displacement(n), iterate%contact(n), iterate%residual(n), &
               iterate%direction(n), iterate%work(n), stat=stat)
     if (stat == 0 .and. allocated(scene%play)) allocate (iterate%at_upper(n), stat=stat)
+    if (stat == 0 .and. scene%has_limits()) allocate (iterate%limited(n), stat=stat)
     if (stat == 0 .and. scene%prescribed) allocate (iterate%start(n), stat=stat)
     if (stat == 0 .and. allocated(scene%modes)) allocate (iterate%rigid_motion(size(scene%load)), stat=stat)
     call require_memory(stat, 'the work space of', n, 'points', info)
@@ -107,6 +111,8 @@ contains
     if (stat /= 0 .or. info%failed()) return
     iterate%segments%space = scene%rows%point_space
     iterate%prescribed = scene%prescribed
+    if (allocated(iterate%at_upper)) iterate%at_upper = .false.
+    if (allocated(iterate%limited)) iterate%limited = 0
     if (present(start)) then
       iterate%force = start
     else if (allocated(scene%modes)) then
@@ -151,7 +157,11 @@ contains
       iterate%rigid_motion = 0.0_dp
       call restore_resultants(scene, iterate, info)
     else if (.not. iterate%prescribed) then
-      call restore_load(iterate)
+      if (scene%has_limits()) then
+        call restore_load_within_limits(scene, iterate)
+      else
+        call restore_load(iterate)
+      end if
     end if
     if (.not. info%failed()) call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, &
                                                        iterate%displacement, info)
@@ -177,6 +187,12 @@ contains
       end where
       return
     end if
+    if (scene%has_limits()) then
+      do k = 1, size(iterate%force)
+        iterate%force(k) = force_in_range(scene, iterate, k)
+      end do
+      return
+    end if
     do k = 1, size(iterate%force)
       if (.not. iterate%contact(k)) then
         iterate%force(k) = 0.0_dp
@@ -189,6 +205,51 @@ contains
       end if
     end do
   end subroutine clip_forces
+
+  !> The force of point `k`, or the nearest one that it may have: that of its limit, or none, off the contact set.
+  pure function force_in_range(scene, iterate, k) result(force)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    real(dp) :: force
+    real(dp) :: least, most
+
+    force = 0.0_dp
+    if (iterate%contact(k)) then
+      call scene%find_range(k, iterate%at_upper(k), least, most)
+      force = min(max(iterate%force(k), least), most)
+    else if (iterate%limited(k) /= 0) then
+      force = scene%limited_force(k, iterate%limited(k))
+    end if
+  end function force_in_range
+
+  !> As `restore_load`, where some forces are at their limits and stay there. Forces that are too large together shrink by
+  !> one factor; where they are too small, what they lack of their limits does, so that all stay within these. Where the
+  !> others would have to pull, all points that have a force share the load.
+  subroutine restore_load_within_limits(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: sums(4), factor, rest
+
+    sums = [sum(iterate%force, mask=iterate%contact), sum(iterate%force, mask=.not. iterate%contact), &
+            real(count(iterate%contact), dp), sum(min(scene%limit, 1.0_dp), mask=iterate%contact)]
+    call iterate%segments%space%add(sums)
+    rest = 1.0_dp - sums(2)
+    if (rest <= 0.0_dp .or. .not. sums(3) > 0.0_dp) then
+      iterate%contact = iterate%contact .or. iterate%limited /= 0
+      iterate%limited = 0
+      call restore_load(iterate)
+    else if (rest > sums(1) .and. rest < sums(4)) then
+      factor = (sums(4) - rest)/(sums(4) - sums(1))
+      where (iterate%contact)
+        iterate%force = min(scene%limit, 1.0_dp) - factor*(min(scene%limit, 1.0_dp) - iterate%force)
+      end where
+    else if (sums(1) > 0.0_dp) then
+      where (iterate%contact) iterate%force = iterate%force*(rest/sums(1))
+    else
+      where (iterate%contact) iterate%force = rest/sums(3)
+    end if
+  end subroutine restore_load_within_limits
 
   !> Forces of sum 1; equal ones where there are none.
   subroutine restore_load(iterate)
@@ -216,8 +277,10 @@ contains
       call iterate%segments%find(iterate%contact, info)
       if (.not. info%failed()) call iterate%projection%set(scene%modes, iterate%segments, info)
       if (info%failed()) return
-      call iterate%projection%correct_resultants(scene%modes, scene%load, iterate%segments, iterate%force, possible)
+      call iterate%projection%correct_resultants(scene%modes, load_on_contact(scene, iterate), iterate%segments, &
+                                                 iterate%force, possible)
       if (possible .or. trial > 1) return
+      if (allocated(iterate%limited)) iterate%limited = 0
       where (.not. iterate%contact) iterate%force = scene%balance
       if (allocated(iterate%at_upper)) then
         where (.not. iterate%contact) iterate%at_upper = scene%balance < 0.0_dp
@@ -225,6 +288,21 @@ contains
       iterate%contact = iterate%contact .or. abs(scene%balance) > 0.0_dp
     end do
   end subroutine restore_resultants
+
+  !> The resultants that the forces on the contact set must have, (m): without those of the forces at their limits.
+  function load_on_contact(scene, iterate) result(load)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: load(size(scene%load))
+    real(dp) :: carried(size(load))
+    integer :: j
+
+    load = scene%load
+    if (.not. scene%has_limits()) return
+    carried = [(sum(iterate%force*scene%modes(:, j), mask=.not. iterate%contact), j=1, size(load))]
+    call iterate%segments%space%add(carried)
+    load = load - carried
+  end function load_on_contact
 
   !> Evaluate motion, residual, penetration and least magnitude from the forces, displacements and
   !> contact set of `iterate`, after `make_feasible`. Error: FUGE_ERR_MEMORY.
@@ -333,6 +411,14 @@ contains
     real(dp) :: depth
     integer :: k
 
+    if (scene%has_limits()) then
+      depth = 0.0_dp
+      do k = 1, size(scene%gap)
+        if (.not. iterate%contact(k)) depth = max(depth, overlap_at(scene, iterate, k))
+      end do
+      depth = scene%rows%largest(depth)
+      return
+    end if
     depth = deepest_penetration(iterate%segments, scene%gap, iterate%motion, iterate%displacement)
     if (.not. allocated(scene%play)) return
     do k = 1, size(scene%gap)
@@ -341,6 +427,29 @@ contains
     end do
     depth = scene%rows%largest(depth)
   end function find_penetration
+
+  !> How far point `k`, which is not in contact, is on the wrong side of a stop, where forces have limits: an open point
+  !> beyond it, one at its limit before it; not positive if it is not.
+  pure function overlap_at(scene, iterate, k) result(overlap)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    real(dp) :: overlap
+    real(dp) :: gap
+
+    overlap = 0.0_dp
+    if (scene%gap(k) >= OUT_OF_REACH) return
+    gap = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
+    select case (iterate%limited(k))
+    case (1)
+      overlap = gap
+    case (-1)
+      overlap = scene%play(k) - gap
+    case default
+      if (scene%limit(k) > 0.0_dp) overlap = -gap
+      if (scene%play(k) < huge(gap)) overlap = max(overlap, gap - scene%play(k))
+    end select
+  end function overlap_at
 
   !> The least magnitude as the certificate forms it, over the contact points: the size of the gap less the rigid
   !> displacement plus the magnitude of the elastic one. Without contact 0, because nothing is rounded. Error:

@@ -4,6 +4,7 @@
 !> allocated only where it has it.
 module fuge_contact_scene
   use fuge_kinds, only: dp
+  use fuge_limited_equilibrium, only: find_limited_equilibrium
   use fuge_shared_equilibrium, only: find_shared_equilibrium
   use fuge_shared_rows, only: shared_rows
   use fuge_shared_transfer, only: restrict_rows
@@ -22,6 +23,8 @@ module fuge_contact_scene
     logical :: prescribed = .false.
     !> Play, (n), huge where one-sided; not allocated: one-sided everywhere.
     real(dp), allocatable :: play(:)
+    !> Limits of the forces at both stops, (n), huge where there is none; not allocated: none. Then `play` is allocated.
+    real(dp), allocatable :: limit(:), limit_upper(:)
     !> Points that take no part in the contact, (n); not allocated: none.
     logical, allocatable :: excluded(:)
     !> Free rigid modes (n, m) and their resultants (m), with `prescribed`; not allocated: none.
@@ -37,6 +40,9 @@ module fuge_contact_scene
     procedure :: is_simple
     procedure :: is_unloaded
     procedure :: is_tied
+    procedure :: has_limits
+    procedure :: find_range
+    procedure :: limited_force
     procedure :: tied_points
   end type contact_scene
 
@@ -85,6 +91,37 @@ contains
     if (allocated(self%excluded)) is_tied = is_tied .and. .not. self%excluded(k)
   end function is_tied
 
+  !> Do forces have limits?
+  pure function has_limits(self)
+    class(contact_scene), intent(in) :: self
+    logical :: has_limits
+
+    has_limits = allocated(self%limit)
+  end function has_limits
+
+  !> The least and the largest force of point `k` at its lower stop, or `at_upper`.
+  pure subroutine find_range(self, k, at_upper, least, most)
+    class(contact_scene), intent(in) :: self
+    integer, intent(in) :: k
+    logical, intent(in) :: at_upper
+    real(dp), intent(out) :: least, most
+
+    least = 0.0_dp
+    most = 0.0_dp
+    if (at_upper .or. self%is_tied(k)) least = -self%limit_upper(k)
+    if (.not. at_upper) most = self%limit(k)
+  end subroutine find_range
+
+  !> The force of point `k` at its limit of the lower stop, `sense` = 1, or of the upper one, -1.
+  pure function limited_force(self, k, sense) result(force)
+    class(contact_scene), intent(in) :: self
+    integer, intent(in) :: k, sense
+    real(dp) :: force
+
+    force = self%limit(k)
+    if (sense < 0) force = -self%limit_upper(k)
+  end function limited_force
+
   !> Points that are tied, (n).
   pure function tied_points(self) result(tied)
     class(contact_scene), intent(in) :: self
@@ -119,6 +156,7 @@ contains
     call restrict_share(scene, coarse%rows, finest, level, share, info)
     if (.not. info%failed()) call restrict_means(scene, coarse%rows, scene%gap, finest, level, share, coarse%gap, info)
     if (.not. info%failed()) call restrict_play(scene, finest, level, share, coarse, info)
+    if (.not. info%failed()) call restrict_limits(scene, finest, level, share, coarse, info)
     if (.not. info%failed()) call restrict_modes(scene, finest, level, share, coarse, info)
     if (info%failed()) return
     if (allocated(scene%excluded)) then
@@ -195,6 +233,47 @@ contains
     if (.not. info%failed()) where (endless > 0.0_dp) coarse%play = huge(1.0_dp)
   end subroutine restrict_play
 
+  !> The sums of the limits over the cells of a coarser one, whose force is the sum of theirs. Error: FUGE_ERR_MEMORY.
+  subroutine restrict_limits(scene, finest, level, share, coarse, info)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: finest(2), level
+    real(dp), intent(in) :: share(:)
+    type(contact_scene), intent(inout) :: coarse
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. scene%has_limits()) return
+    call sum_of_limits(scene, scene%limit, finest, level, share, coarse, coarse%limit, info)
+    if (.not. info%failed()) call sum_of_limits(scene, scene%limit_upper, finest, level, share, coarse, &
+                                                coarse%limit_upper, info)
+  end subroutine restrict_limits
+
+  !> `sums` of the limits over the points of each coarse cell that take part, huge where one of them has none. Error:
+  !> FUGE_ERR_MEMORY.
+  subroutine sum_of_limits(scene, limit, finest, level, share, coarse, sums, info)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in), contiguous :: limit(:)
+    integer, intent(in) :: finest(2), level
+    real(dp), intent(in) :: share(:)
+    type(contact_scene), intent(in) :: coarse
+    real(dp), allocatable, intent(out) :: sums(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: endless(:), values(:)
+    integer :: stat
+
+    allocate (values(size(limit)), stat=stat)
+    call require_memory(stat, 'the limits of', size(limit), 'cells', info)
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    values = merge(1.0_dp, 0.0_dp, limit >= huge(1.0_dp))
+    call restrict_means(scene, coarse%rows, values, finest, level, share, endless, info)
+    if (info%failed()) return
+    values = merge(0.0_dp, limit, limit >= huge(1.0_dp))
+    call restrict_means(scene, coarse%rows, values, finest, level, share, sums, info)
+    if (info%failed()) return
+    sums = sums*share*real(product(min(2**level, finest)), dp)
+    where (endless > 0.0_dp) sums = huge(1.0_dp)
+  end subroutine sum_of_limits
+
   !> The mean displacement of each cell by a motion, none where the motion is one within cells, and the same resultants.
   subroutine restrict_modes(scene, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
@@ -227,7 +306,7 @@ contains
     type(contact_scene), intent(inout) :: scene
     logical, intent(out) :: possible
     type(fuge_info), intent(inout) :: info
-    real(dp) :: remainder(size(scene%load))
+    real(dp) :: remainder(size(scene%load)), noise(size(scene%load))
     logical, allocatable :: pushes(:), pulls(:)
     integer :: stat
 
@@ -240,8 +319,14 @@ contains
     if (allocated(scene%excluded)) pushes = .not. scene%excluded
     pulls = .false.
     if (allocated(scene%play)) pulls = pushes .and. scene%play < huge(1.0_dp)
-    call find_shared_equilibrium(scene%rows%point_space, scene%modes, scene%load, pushes, pulls, scene%balance, &
-                                 remainder, epsilon(remainder)*spread(maxval(abs(scene%load)), 1, size(remainder)))
+    noise = epsilon(noise)*maxval(abs(scene%load))
+    if (scene%has_limits()) then
+      call find_limited_equilibrium(scene%modes, scene%load, merge(-scene%limit_upper, 0.0_dp, pulls), &
+                                    merge(scene%limit, 0.0_dp, pushes), noise, scene%balance, remainder)
+    else
+      call find_shared_equilibrium(scene%rows%point_space, scene%modes, scene%load, pushes, pulls, scene%balance, &
+                                   remainder, noise)
+    end if
     possible = .not. any(abs(remainder) > 0.0_dp)
   end subroutine find_balance
 
