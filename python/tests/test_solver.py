@@ -147,7 +147,7 @@ class Laws(unittest.TestCase):
         with self.assertRaises(fuge.EquilibriumError):
             fuge.solve(ALPHA, GAP, 2.0, limit=0.5)
         with self.assertRaises(fuge.UnsupportedError):
-            fuge.solve(ALPHA, GAP, 2.0, limit=5.0, method="iterative")
+            fuge.solve(ALPHA, GAP, 2.0, compliance=0.5, method="iterative")
 
 
 class Errors(unittest.TestCase):

@@ -6,7 +6,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 function(expect_table what program)
   run("${what}" "${CMAKE_COMMAND}" -E env --unset=LD_LIBRARY_PATH --unset=DYLD_LIBRARY_PATH
     "${program}" --alpha "${DATA}/two_nodes_alpha.mtx" --gap "${DATA}/two_nodes_gap.mtx" --load 2)
-  if(NOT output MATCHES "\n1, 2\\.0+E\\+000, 0\\.0+E\\+000\n2, 0\\.0+E\\+000, 8\\.0+[0-9]E-001\n")
+  if(NOT output MATCHES "\n1, 2\\.0+E\\+000, 0\\.0+E\\+000,contact\n2, 0\\.0+E\\+000, 8\\.0+[0-9]E-001,open\n")
     message(FATAL_ERROR "${what} printed the wrong table: ${output}")
   endif()
 endfunction()

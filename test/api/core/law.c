@@ -201,7 +201,7 @@ static int twice(int n, const double *f, double *u, void *user) {
   return 0;
 }
 
-/* The iteration and load paths know no laws, and say so. */
+/* The iteration knows no springs, load paths no laws, and they say so. */
 static void test_unsupported(void) {
   int entries = -1;
   fuge_options options;
@@ -211,9 +211,9 @@ static void test_unsupported(void) {
   options.method = FUGE_ITERATIVE;
   solver = new_flat(ELASTIC, &options, &op);
   CHECK_DONE(fuge_set_load(solver, 1.0));
-  CHECK_DONE(fuge_set_limits(solver, SPRINGS, NULL));
-  check_says(solver, fuge_solve(solver), FUGE_ERR_UNSUPPORTED, "limits");
-  CHECK_DONE(fuge_set_limits(solver, NULL, NULL));
+  CHECK_DONE(fuge_set_compliance(solver, SPRINGS));
+  check_says(solver, fuge_solve(solver), FUGE_ERR_UNSUPPORTED, "compliance");
+  CHECK_DONE(fuge_set_compliance(solver, NULL));
   CHECK_DONE(fuge_set_motion_stiffness(solver, 0, 1.0));
   check_says(solver, fuge_solve(solver), FUGE_ERR_UNSUPPORTED, "springs on motions");
   check_says(solver, fuge_follow_path(solver, SPRINGS, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
