@@ -152,8 +152,8 @@ module fuge_status
     procedure :: failed
   end type fuge_info
 
-  !> Report FUGE_ERR_MEMORY unless `stat` of an allocation is 0. It is passed by value, so that the compiler knows that it
-  !> stays what it is.
+  !> Report FUGE_ERR_MEMORY unless `stat` of an allocation is 0. It is passed by value, so that the compiler knows that
+  !> it stays what it is.
   interface require_memory
     module procedure require_memory_for
     module procedure require_memory_for_count

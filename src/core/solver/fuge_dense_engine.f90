@@ -204,7 +204,8 @@ contains
     real(dp), intent(in) :: tolerance
     type(fuge_info), intent(inout) :: info
 
-    if (.not. problem%has_law()) call judge_force_level(operator, self%canonical, problem%gap, self%state, tolerance, info)
+    if (problem%has_law()) return
+    call judge_force_level(operator, self%canonical, problem%gap, self%state, tolerance, info)
   end subroutine judge
 
   !> The matrix may have changed since it was factored, although the operator was not set again.

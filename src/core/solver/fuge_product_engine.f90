@@ -59,8 +59,8 @@ contains
       return
     end if
     if (problem%has_springs()) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the iteration knows no compliance and no springs on motions: use a dense ' &
-                  //'operator and FUGE_ACTIVE_SET')
+      call report(info, FUGE_ERR_UNSUPPORTED, 'the iteration knows no compliance and no springs on motions: use a ' &
+                  //'dense operator and FUGE_ACTIVE_SET')
       return
     end if
     space = operator%ranks()

@@ -33,7 +33,8 @@ contains
       call report(info, FUGE_ERR_OPTION, 'modes, gap_upper, excluded, prescribed or the laws of points are not ' &
                   //'allocated alike on all ranks: allocate them on all or on none, also where a rank has no points')
     else if (differ(values_by_mode(problem), space)) then
-      call report(info, FUGE_ERR_OPTION, 'a load, a prescribed motion or the stiffness of one differs between the ranks')
+      call report(info, FUGE_ERR_OPTION, 'a load, a prescribed motion or the stiffness of one differs between the ' &
+                  //'ranks')
     else if (differ([real([options%method, options%max_iterations, merge(1, 0, options%keep_history)], dp), &
                      options%tolerance], space)) then
       call report(info, FUGE_ERR_OPTION, 'method, max_iterations, keep_history or tolerance of the options differs ' &

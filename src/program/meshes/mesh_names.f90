@@ -29,8 +29,8 @@ contains
     if (.not. info%failed()) call find_in_mesh(bodies(body), name, [A_SURFACE], kind, surface)
   end subroutine find_surface
 
-  !> The body of body.NODES, or of NODES where one body only has them, and the indices of the nodes in its mesh: those of
-  !> a set or a surface, or that of the node with this number.
+  !> The body of body.NODES, or of NODES where one body only has them, and the indices of the nodes in its mesh: those
+  !> of a set or a surface, or that of the node with this number.
   subroutine find_nodes(word, source, bodies, body, nodes, info)
     character(len=*), intent(in) :: word, source
     type(model_body), intent(in) :: bodies(:)

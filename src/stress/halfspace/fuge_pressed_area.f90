@@ -70,8 +70,8 @@ contains
     end do
   end subroutine check_area
 
-  !> Take, for the first time, the rectangles with a force, of those that `check_area` accepts; `symmetric` (2): about x = 0, about y = 0.
-  !> `stat` as in an allocate statement.
+  !> Take, for the first time, the rectangles with a force, of those that `check_area` accepts; `symmetric` (2): about x
+  !> = 0, about y = 0. `stat` as in an allocate statement.
   pure subroutine set(self, x, y, width_x, width_y, force, symmetric, stat)
     class(pressed_area), intent(inout) :: self
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:)

@@ -229,11 +229,11 @@ contains
     end do
   end subroutine list_points
 
-  !> Residuals of the gaps (n), at the `points` of the contact only, and of equilibrium (m); `loaded` are the points that
-  !> may have a force. `high`, `low` and `column` are work space as long as `points`. The arguments are thirteen, because three of
-  !> them are work space that the caller keeps.
-  pure subroutine find_residual(canonical, gap, gap_rounding, regularisation, points, loaded, force, motion, high, low, &
-                                column, residual, missing)
+  !> Residuals of the gaps (n), at the `points` of the contact only, and of equilibrium (m); `loaded` are the points
+  !> that may have a force. `high`, `low` and `column` are work space as long as `points`. The arguments are thirteen,
+  !> because three of them are work space that the caller keeps.
+  pure subroutine find_residual(canonical, gap, gap_rounding, regularisation, points, loaded, force, motion, high, &
+                                low, column, residual, missing)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap(:), gap_rounding(:), regularisation
     integer, intent(in), contiguous :: points(:), loaded(:)

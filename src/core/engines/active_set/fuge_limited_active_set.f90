@@ -2,8 +2,8 @@
 !>
 !> As `fuge_primal_active_set`, but a step may also end where a force reaches its limit: that point gives way from then
 !> on. At the solution of a set the point furthest on the wrong side of its stop comes back to it, be it an open one
-!> beyond the stop or a limited one before it (J. Nocedal, S. J. Wright, Numerical Optimization, 2006, section 16.5). The
-!> energy falls with every point that comes back, so the method ends.
+!> beyond the stop or a limited one before it (J. Nocedal, S. J. Wright, Numerical Optimization, 2006, section 16.5).
+!> The energy falls with every point that comes back, so the method ends.
 module fuge_limited_active_set
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution

@@ -290,8 +290,8 @@ contains
     if (allocated(self%limit)) pushes = self%limit(k) > 0.0_dp
   end function pushes
 
-  !> How far point `k`, which is not at a stop, is from the nearest one that it may come to, length: negative for an open
-  !> point beyond a stop, and for a limited one before its stop.
+  !> How far point `k`, which is not at a stop, is from the nearest one that it may come to, length: negative for an
+  !> open point beyond a stop, and for a limited one before its stop.
   pure function slack(self, k, state, gap) result(length)
     class(canonical_problem), intent(in) :: self
     integer, intent(in) :: k, state

@@ -1,8 +1,8 @@
 !> Whether contact forces within limits can carry the resultant.
 !>
 !> Looks for f with R^T f = w and least <= f <= most by least squares with bounds (P. B. Stark, R. L. Parker,
-!> Computational Statistics 10, 1995). Where there is no such f, the remainder of w proves it: it is a motion along which
-!> all forces, each at the limit that does most work, do less work than the resultant.
+!> Computational Statistics 10, 1995). Where there is no such f, the remainder of w proves it: it is a motion along
+!> which all forces, each at the limit that does most work, do less work than the resultant.
 module fuge_limited_equilibrium
   use fuge_equilibrium, only: is_in_equilibrium, is_negligible
   use fuge_kinds, only: dp
@@ -41,7 +41,8 @@ contains
       remainder = resultant - [(dot_product(force, modes(:, j)), j=1, size(resultant))]
       if (is_in_equilibrium(modes, resultant, noise, force, remainder)) exit
       terms = [(sum(abs(force*modes(:, j))), j=1, size(terms))]
-      newest = point_with_most_work(modes, remainder, ROUNDINGS*(noise + epsilon(noise)*terms), force, least, most, basic)
+      newest = point_with_most_work(modes, remainder, ROUNDINGS*(noise + epsilon(noise)*terms), force, least, most, &
+                                    basic)
       if (newest == 0) then
         if (is_negligible(remainder, resultant, terms)) exit
         return

@@ -107,8 +107,8 @@ contains
     else
       call check_problem(problem, operator%points(), info)
       if (problem%has_law() .and. .not. info%failed()) then
-        call report(info, FUGE_ERR_UNSUPPORTED, 'a load path knows no compliance, limits or springs on motions: solve ' &
-                    //'for one load after the other')
+        call report(info, FUGE_ERR_UNSUPPORTED, 'a load path knows no compliance, limits or springs on motions: ' &
+                    //'solve for one load after the other')
       end if
     end if
   end subroutine check_start

@@ -5,8 +5,8 @@
 !>     2n+1 .. 2n+m        motions in the free rigid modes (the paper: m = 1, the approach v_0)
 !>     2n+m+1 .. 3n+2m     artificial variables, one for each row
 !>
-!> A play needs no columns of its own: it is an upper bound of c_k, and F_k is negative there. Nor does a limit, which is
-!> an upper bound of F_k.
+!> A play needs no columns of its own: it is an upper bound of c_k, and F_k is negative there. Nor does a limit, which
+!> is an upper bound of F_k.
 !>
 !> Source: Fischer, Hoyer, Melosh, section 3, Bild 3 and Tabelle 1.
 module fuge_column_numbers

@@ -378,8 +378,8 @@ contains
     if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
   end subroutine exchange_single_points
 
-  !> As exchange_single_points, where forces have limits: a step ends where the first force reaches zero or its limit, and
-  !> at the solution of a set the point furthest on the wrong side of its stop comes back to it.
+  !> As exchange_single_points, where forces have limits: a step ends where the first force reaches zero or its limit,
+  !> and at the solution of a set the point furthest on the wrong side of its stop comes back to it.
   subroutine exchange_single_limits(operator, settings, preconditioner, scene, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings

@@ -162,9 +162,9 @@ contains
     call choose_limited_contact(scene, iterate)
   end subroutine set_balanced_forces
 
-  !> From the feasible forces `start` (n) go towards those of the iterate, which are the solution of its contact set, until
-  !> the first one reaches the end of its range: that point leaves its stop, and the forces of the iterate are feasible
-  !> again. If that is `newest`, which has just come back to its stop, it came by rounding and is `locked` (n).
+  !> From the feasible forces `start` (n) go towards those of the iterate, which are the solution of its contact set,
+  !> until the first one reaches the end of its range: that point leaves its stop, and the forces of the iterate are
+  !> feasible again. If that is `newest`, which has just come back to its stop, it came by rounding and is `locked` (n).
   subroutine step_to_limit(scene, start, newest, locked, iterate)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: start(:)
@@ -180,7 +180,8 @@ contains
       if (.not. iterate%contact(k)) cycle
       if (excess_of(scene, iterate, k, iterate%force(k)) <= iterate%tension_noise) cycle
       call scene%find_range(k, iterate%at_upper(k), least, most)
-      fraction = abs(min(max(iterate%force(k), least), most) - start(k))/max(abs(iterate%force(k) - start(k)), tiny(most))
+      fraction = abs(min(max(iterate%force(k), least), most) - start(k)) &
+                 /max(abs(iterate%force(k) - start(k)), tiny(most))
       if (k == newest .and. .not. fraction > 0.0_dp) fraction = -1.0_dp
       if (blocking > 0 .and. fraction >= step_length) cycle
       step_length = fraction
@@ -196,8 +197,8 @@ contains
     end do
   end subroutine step_to_limit
 
-  !> The point that is furthest on the wrong side of its stop, by more than `noise` and not `locked` (n), comes back to it:
-  !> `point`, 0 if there is none.
+  !> The point that is furthest on the wrong side of its stop, by more than `noise` and not `locked` (n), comes back to
+  !> it: `point`, 0 if there is none.
   subroutine return_deepest(scene, noise, locked, iterate, point)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: noise

@@ -13,9 +13,9 @@ module fuge_contact_iterate
   implicit none
   private
 
-  public :: overlap_at, clip_forces, compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
-    find_penetration, is_accurate, largest_rigid_magnitude, make_feasible, project_residual, remove_rigid_part, &
-    rounding_force, start_iterate
+  public :: clip_forces, compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
+    find_penetration, is_accurate, largest_rigid_magnitude, make_feasible, overlap_at, project_residual, &
+    remove_rigid_part, rounding_force, start_iterate
 
   !> Gaps less rigid displacements may be rounded by this many units in the last place of their terms.
   real(dp), parameter :: ROUNDINGS = 2.0_dp
@@ -223,9 +223,9 @@ contains
     end if
   end function force_in_range
 
-  !> As `restore_load`, where some forces are at their limits and stay there. Forces that are too large together shrink by
-  !> one factor; where they are too small, what they lack of their limits does, so that all stay within these. Where the
-  !> others would have to pull, all points that have a force share the load.
+  !> As `restore_load`, where some forces are at their limits and stay there. Forces that are too large together shrink
+  !> by one factor; where they are too small, what they lack of their limits does, so that all stay within these. Where
+  !> the others would have to pull, all points that have a force share the load.
   subroutine restore_load_within_limits(scene, iterate)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
