@@ -433,9 +433,10 @@ int fuge_set_excluded(fuge_solver *s, const int *excluded);
 /* A spring between the bodies at each point, such as a gasket, a bed or a member: the force f
  * closes its gap by compliance*f more, c = g + (alpha + D) f - R q with D = diag(compliance).
  *   compliance  in  n, >= 0; length per force.  NULL: none
- * Compliances, limits and springs on motions need a dense operator, and the active set or the
- * tableau: FUGE_ERR_UNSUPPORTED from fuge_solve with another engine, and from
- * fuge_follow_path.  FUGE_ERR_LAW for a negative one, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
+ * Compliances and springs on motions need a dense operator, of whose matrix the solver then
+ * keeps a copy, and the active set or the tableau: FUGE_ERR_UNSUPPORTED from fuge_solve with
+ * another engine, and from fuge_follow_path.  FUGE_ERR_LAW for a negative one,
+ * FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
 int fuge_set_compliance(fuge_solver *s, const double *compliance);
 
 /* Limits of the forces, such as hardness times area, the yield force of a support or the force
@@ -445,8 +446,9 @@ int fuge_set_compliance(fuge_solver *s, const double *compliance);
  *                    point does not push.  NULL: none everywhere
  *   limit_upper  in  n, >= 0, of the size of the force at the upper stop, for a tied point of a
  *                    pulling force; likewise
- * Resultants beyond the limits are FUGE_ERR_NO_EQUILIBRIUM of fuge_solve.  FUGE_ERR_LAW for a
- * negative one, FUGE_ERR_NOT_FINITE for NaN; engines as for fuge_set_compliance. */
+ * Resultants beyond the limits are FUGE_ERR_NO_EQUILIBRIUM of fuge_solve.  Every engine knows
+ * limits, but neither ranks nor fuge_follow_path do: FUGE_ERR_UNSUPPORTED.  FUGE_ERR_LAW for a
+ * negative one, FUGE_ERR_NOT_FINITE for NaN. */
 int fuge_set_limits(fuge_solver *s, const double *limit, const double *limit_upper);
 
 /* One translation, free under the load F_0 >= 0; force.  With fuge_set_gap(s, gap, NULL)
@@ -567,7 +569,7 @@ int fuge_get_info(const fuge_solver *s, fuge_info *info);
  *   basis      out  count rows of n+m column numbers, row k at basis + k*(n+m), counted from
  *                   1: 1 .. n forces, n+1 .. 2n gaps, then m free motions (v_0: 2n+1,
  *                   m = 1), then artificial variables.  Two equal rows: a gap went from
- *                   one stop to the other
+ *                   one stop to the other, or a force to its limit or from it
  *   z          out  count; sum of the artificial variables in your units
  *   available  out  number of steps kept
  * With count = 0 only available is set; basis and z may then be NULL.  A solve with zero

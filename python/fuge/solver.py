@@ -161,7 +161,8 @@ class Solver(Owner):
     def set_compliance(self, compliance: ArrayLike | None) -> None:
         """Put a spring between the bodies at each point: a gasket, a bed, a member.
 
-        Springs and limits need a matrix, and one of the methods 'active_set' and 'tableau'.
+        Springs need a matrix, of which the solver keeps a copy, and one of the methods
+        'active_set' and 'tableau'.
 
         Parameters
         ----------
@@ -441,7 +442,7 @@ def solve(
     excluded : array_like of bool, shape of gap, optional
         Points that carry no force.
     compliance : array_like of the shape of gap, or float, optional
-        Springs at the points; length per force. They, limits and motion_stiffness need a matrix; see
+        Springs at the points; length per force. They and motion_stiffness need a matrix; see
         :meth:`Solver.set_compliance`.
     limit, limit_upper : array_like of the shape of gap, or float, optional
         Limits of the forces; see :meth:`Solver.set_limits`.

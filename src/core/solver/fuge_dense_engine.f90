@@ -71,9 +71,15 @@ contains
     class is (fuge_dense_operator)
       self%spring_points = 0
       self%with_springs = problem%has_springs()
+      if (options%keep_history .and. spring_count(problem) > 0) then
+        call report(info, FUGE_ERR_UNSUPPORTED, 'the history has no columns for springs on motions: leave ' &
+                    //'keep_history out, or motion_stiffness')
+        return
+      end if
       if (problem%has_springs()) then
         call solve_with_springs(self, operator, problem, options, monitor, history, solution, info)
       else
+        if (allocated(self%springs)) deallocate (self%springs)
         call solve_with_matrix(self, operator, problem, options, monitor, history, solution, info)
       end if
     class default
@@ -222,6 +228,7 @@ contains
     class(dense_engine), intent(inout) :: self
 
     self%factor = kkt_factor()
+    if (allocated(self%springs)) deallocate (self%springs)
   end subroutine distrust_start
 
   subroutine forget_start(self)
@@ -229,6 +236,7 @@ contains
 
     self%factor = kkt_factor()
     if (allocated(self%state)) deallocate (self%state)
+    if (allocated(self%springs)) deallocate (self%springs)
   end subroutine forget_start
 
   pure function last_points(self) result(number)

@@ -108,7 +108,8 @@ contains
     real(dp), intent(in) :: tolerance
     type(fuge_info), intent(inout) :: info
 
-    if (self%is_general) then
+    ! Points that give way make the level of the forces unique.
+    if (self%is_general .and. .not. problem%has_limits()) then
       call judge_force_level(operator, self%canonical, problem%gap, self%last%state, tolerance, info)
     end if
   end subroutine judge

@@ -121,6 +121,7 @@ contains
     problem%resultant = condensed%resultant
     if (allocated(problem%prescribed)) deallocate (problem%prescribed)
     if (allocated(problem%motion)) deallocate (problem%motion)
+    if (allocated(problem%motion_stiffness)) deallocate (problem%motion_stiffness)
     if (allocated(problem%gap_upper)) deallocate (problem%gap_upper)
     if (any(self%pairs%gap_upper < ieee_value(1.0_dp, ieee_positive_inf))) problem%gap_upper = self%pairs%gap_upper
   end subroutine pose

@@ -216,6 +216,8 @@ contains
     if (size(self%resultant) < 1) return
     problem%modes = self%modes
     problem%resultant = self%resultant
+    ! A spring on another motion is none of these.
+    if (allocated(problem%motion_stiffness)) deallocate (problem%motion_stiffness)
   end subroutine pose
 
   !> Displacements of all degrees of freedom for a solution of the contact problem.

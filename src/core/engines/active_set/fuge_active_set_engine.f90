@@ -52,7 +52,12 @@ contains
     ! A guess from another problem may name stops and points that this one does not have.
     where (canonical%excluded) solution%state = FUGE_OPEN
     where (canonical%upper >= huge(1.0_dp)) solution%state = max(solution%state, FUGE_OPEN)
-    if (.not. canonical%has_limits()) solution%state = min(max(solution%state, FUGE_AT_UPPER_STOP), FUGE_AT_LOWER_STOP)
+    if (canonical%has_limits()) then
+      where (canonical%limit >= huge(1.0_dp)) solution%state = min(solution%state, FUGE_AT_LOWER_STOP)
+      where (canonical%limit_upper >= huge(1.0_dp)) solution%state = max(solution%state, FUGE_AT_UPPER_STOP)
+    else
+      solution%state = min(max(solution%state, FUGE_AT_UPPER_STOP), FUGE_AT_LOWER_STOP)
+    end if
     if (all(solution%state == FUGE_OPEN)) call make_guess(canonical, solution%state, info%products)
     call solve_from_set(canonical, iteration_limit(options, size(solution%state) + 1), monitor, factor, solution, &
                         sets, info, kept)

@@ -250,7 +250,8 @@ contains
     shift_low = 0.0_dp
     waiting = 0
     do j = 1, size(loaded)
-      if (.not. abs(force(loaded(j))) > 0.0_dp) cycle
+      ! Forces at limits may be the only ones: there is no gap to close then.
+      if (size(points) < 1 .or. .not. abs(force(loaded(j))) > 0.0_dp) cycle
       call add_column([canonical%datum], -force(loaded(j)), shift_high, shift_low)
       if (waiting == 0) then
         waiting = loaded(j)

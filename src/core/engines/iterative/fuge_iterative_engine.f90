@@ -26,7 +26,7 @@ module fuge_iterative_engine
   use fuge_point_space, only: point_space
   use fuge_repeated_points, only: find_repeated_points
   use fuge_scene_scaling, only: scene_scaling
-  use fuge_set_compliance, only: probe_compliance
+  use fuge_probed_compliance, only: probe_compliance
   use fuge_shared_rows, only: rows_of
   use fuge_shared_transfer, only: prolong_to
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &

@@ -1,11 +1,13 @@
 !> The influence matrix of points and motions on springs, so that engines for a matrix need no springs of their own.
 !>
-!> Compliances stand on the diagonal. A spring on a motion is a tied point more, which that motion alone moves and whose
-!> compliance is one over the stiffness: its force is the part of the resultant that the spring carries. The matrix is a
-!> copy, because that of the caller must stay as it is.
+!> Compliances stand on the diagonal. A spring on a motion is a tied point more, which that motion alone moves, as far
+!> as the point that it moves most, its arm: the force there times the arm is the part of the resultant that the spring
+!> carries, so that it is compared with other forces. The matrix is a copy, because that of the caller must stay as it
+!> is.
 module fuge_spring_matrix
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
   use, intrinsic :: iso_c_binding, only: c_long_long
+  use fuge_constants, only: LARGEST_EXPONENT
   use fuge_kinds, only: dp
   use fuge_locks, only: new_stamp
   use fuge_matrix_operator, only: fuge_dense_operator
@@ -22,7 +24,7 @@ module fuge_spring_matrix
     real(dp), allocatable :: alpha(:, :)
     !> What was made into it: the matrix of the caller, and the springs.
     integer(c_long_long) :: source = 0
-    real(dp), allocatable :: compliance(:), stiffness(:)
+    real(dp), allocatable :: compliance(:), motion_compliance(:)
     type(matrix_survey) :: survey
     integer(c_long_long) :: stamp = 0
   contains
@@ -42,22 +44,24 @@ contains
     class(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_info), intent(inout) :: info
-    real(dp) :: compliance(operator%points()), stiffness(spring_count(problem))
+    real(dp) :: compliance(operator%points()), stiffness(spring_count(problem)), arm(spring_count(problem))
     integer :: k, n, stat
 
     n = operator%points()
     compliance = 0.0_dp
     if (allocated(problem%compliance)) compliance = problem%compliance
     stiffness = spring_stiffnesses(problem)
-    if (is_same(self, operator, compliance, stiffness)) return
-    call self%clear()
+    arm = spring_arms(problem)
     do k = 1, size(stiffness)
-      if (.not. stiffness(k)*sqrt(huge(1.0_dp)) > 1.0_dp) call report(info, FUGE_ERR_OVERFLOW, 'motion_stiffness ' &
-        //'reaches down to '//text(stiffness(k))//': choose units in which it is larger, or 0 for no spring')
-      if (info%failed()) return
+      if (2*exponent(arm(k)) - exponent(stiffness(k)) <= LARGEST_EXPONENT) cycle
+      call report(info, FUGE_ERR_OVERFLOW, 'motion_stiffness reaches down to '//text(stiffness(k)) &
+                  //': choose units in which it is larger, or 0 for no spring')
+      return
     end do
+    if (is_same(self, operator, compliance, arm*(arm/stiffness))) return
+    call self%clear()
     allocate (self%alpha(n + size(stiffness), n + size(stiffness)), self%compliance(n), &
-              self%stiffness(size(stiffness)), stat=stat)
+              self%motion_compliance(size(stiffness)), stat=stat)
     call require_memory(stat, 'the influence matrix with springs of', n, 'points', info)
     if (stat /= 0) return
     do k = 1, n
@@ -67,25 +71,25 @@ contains
     end do
     do k = 1, size(stiffness)
       self%alpha(:, n + k) = 0.0_dp
-      self%alpha(n + k, n + k) = 1.0_dp/stiffness(k)
+      self%alpha(n + k, n + k) = arm(k)*(arm(k)/stiffness(k))
     end do
     call survey_matrix(self%alpha, self%survey)
     self%compliance = compliance
-    self%stiffness = stiffness
+    self%motion_compliance = arm*(arm/stiffness)
     self%source = operator%stamp()
     self%stamp = new_stamp()
   end subroutine set
 
   !> Was the matrix made of the same one, and the same springs?
-  pure function is_same(self, operator, compliance, stiffness) result(same)
+  pure function is_same(self, operator, compliance, motion_compliance) result(same)
     type(spring_matrix), intent(in) :: self
     class(fuge_dense_operator), intent(in) :: operator
-    real(dp), intent(in) :: compliance(:), stiffness(:)
+    real(dp), intent(in) :: compliance(:), motion_compliance(:)
     logical :: same
 
     same = allocated(self%alpha) .and. self%source > 0 .and. self%source == operator%stamp()
-    if (same) same = size(self%stiffness) == size(stiffness) .and. size(self%compliance) == size(compliance)
-    if (same) same = .not. (any(abs(self%stiffness - stiffness) > 0.0_dp) &
+    if (same) same = size(self%motion_compliance) == size(motion_compliance) .and. size(self%compliance) == size(compliance)
+    if (same) same = .not. (any(abs(self%motion_compliance - motion_compliance) > 0.0_dp) &
                             .or. any(abs(self%compliance - compliance) > 0.0_dp))
   end function is_same
 
@@ -95,7 +99,7 @@ contains
 
     if (allocated(self%alpha)) deallocate (self%alpha)
     if (allocated(self%compliance)) deallocate (self%compliance)
-    if (allocated(self%stiffness)) deallocate (self%stiffness)
+    if (allocated(self%motion_compliance)) deallocate (self%motion_compliance)
     self%source = 0
   end subroutine clear
 
@@ -132,6 +136,20 @@ contains
     if (allocated(problem%motion_stiffness)) stiffness = pack(problem%motion_stiffness, has_spring(problem))
   end function spring_stiffnesses
 
+  !> The largest displacement of a point by each motion on a spring, length per unit of the motion; 1 where it moves
+  !> none.
+  pure function spring_arms(problem) result(arm)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: arm(spring_count(problem))
+    real(dp) :: largest(problem%mode_count())
+    integer :: j
+
+    largest = 1.0_dp
+    if (allocated(problem%modes)) largest = [(maxval(abs(problem%modes(:, j))), j=1, size(largest))]
+    where (.not. largest > 0.0_dp) largest = 1.0_dp
+    arm = pack(largest, has_spring(problem))
+  end function spring_arms
+
   !> The same problem without springs, for the matrix that has them: motions on springs have a tied point more. Error:
   !> FUGE_ERR_MEMORY.
   subroutine extend_problem(problem, extended, info)
@@ -140,11 +158,13 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: infinity
     logical :: on_spring(problem%mode_count())
+    real(dp) :: arm(spring_count(problem))
     integer :: j, m, n, springs, stat
 
     n = problem%points()
     m = problem%mode_count()
     on_spring = has_spring(problem)
+    arm = spring_arms(problem)
     springs = spring_count(problem)
     infinity = ieee_value(1.0_dp, ieee_positive_inf)
     extended = problem
@@ -175,7 +195,7 @@ contains
     do j = 1, m
       if (.not. on_spring(j)) cycle
       springs = springs + 1
-      extended%modes(n + springs, j) = 1.0_dp
+      extended%modes(n + springs, j) = arm(springs)
     end do
   end subroutine extend_problem
 
@@ -201,23 +221,23 @@ contains
     type(fuge_problem), intent(in) :: problem, extended
     type(fuge_solution), intent(inout) :: solution
     logical :: on_spring(problem%mode_count())
-    real(dp) :: displacement(extended%points()), arm, stiffness
+    real(dp) :: displacement(extended%points()), arm(spring_count(problem)), flexibility
     integer :: j, spring
 
     if (spring_count(problem) < 1) return
     on_spring = has_spring(problem)
+    arm = spring_arms(problem)
     displacement = 0.0_dp
     do j = 1, size(on_spring)
       displacement = max(displacement, abs(extended%modes(:, j)*solution%motion(j)))
     end do
-    spring = problem%points()
+    spring = 0
     do j = 1, size(on_spring)
       if (.not. on_spring(j)) cycle
       spring = spring + 1
-      stiffness = problem%motion_stiffness(j)
-      arm = maxval(abs(extended%modes(:, j)))
-      if (stiffness*(maxval(displacement)/arm) > maxval(abs(solution%force))) then
-        solution%motion(j) = solution%force(spring)/stiffness
+      flexibility = arm(spring)/problem%motion_stiffness(j)
+      if (maxval(displacement) > arm(spring)*flexibility*maxval(abs(solution%force))) then
+        solution%motion(j) = solution%force(problem%points() + spring)*flexibility
       end if
     end do
   end subroutine find_spring_motions

@@ -136,7 +136,8 @@ contains
     if (count(idle) <= size(basis, 2) .or. size(basis, 2) > MOST_COMBINATIONS) return
     ! A combination that takes forces of the wrong sign closes a point, as a motion would. A force at its limit can only
     ! become smaller.
-    pulls = idle .and. ((solution%gap(points) < 0.5_dp*canonical%upper(points)) .neqv. abs(solution%state(points)) > 1)
+    pulls = idle .and. merge(solution%state(points) < 0, solution%gap(points) < 0.5_dp*canonical%upper(points), &
+                             abs(solution%state(points)) > 1)
     pushes = idle .and. .not. pulls
     do j = 1, size(direction)
       do sense = -1, 1, 2

@@ -4,7 +4,7 @@
 !> was exact, others that hardly displace anything do not show, although they may be wrong by much. Random lengths
 !> require all forces. Points that are open by no more than the equations are wrong, or than the gaps and motions are
 !> rounded, may as well be in contact, and count.
-module fuge_set_compliance
+module fuge_probed_compliance
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, deformed_gap, &
     remove_rigid_part
@@ -204,4 +204,4 @@ contains
     end do
   end subroutine subtract_over
 
-end module fuge_set_compliance
+end module fuge_probed_compliance
