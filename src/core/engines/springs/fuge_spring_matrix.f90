@@ -88,7 +88,8 @@ contains
     logical :: same
 
     same = allocated(self%alpha) .and. self%source > 0 .and. self%source == operator%stamp()
-    if (same) same = size(self%motion_compliance) == size(motion_compliance) .and. size(self%compliance) == size(compliance)
+    if (same) same = size(self%motion_compliance) == size(motion_compliance) &
+                     .and. size(self%compliance) == size(compliance)
     if (same) same = .not. (any(abs(self%motion_compliance - motion_compliance) > 0.0_dp) &
                             .or. any(abs(self%compliance - compliance) > 0.0_dp))
   end function is_same
