@@ -162,19 +162,45 @@ contains
   end subroutine displace
 
   !> Half the work of the forces on the `displacement` (n) by them, which lacks the `datum`, and of the springs on the
-  !> motions.
+  !> motions; huge where it would overflow.
   function elastic_energy(problem, solution, displacement, datum, space) result(energy)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(in) :: displacement(:), datum
     type(point_space), intent(in) :: space
     real(dp) :: energy
-    real(dp) :: sums(2)
+    real(dp) :: largest(2), spring(size(solution%motion)), sums(2), works(2 + size(solution%motion))
 
-    sums = [sum(solution%force*displacement), sum(solution%force)]
+    energy = 0.0_dp
+    largest = [maxval(abs(solution%force)), maxval(abs(displacement))]
+    call space%raise(largest)
+    if (.not. largest(1) > 0.0_dp) largest(1) = 1.0_dp
+    if (.not. largest(2) > 0.0_dp) largest(2) = 1.0_dp
+    sums = [sum((solution%force/largest(1))*(displacement/largest(2))), sum(solution%force)]
     call space%add(sums)
-    energy = 0.5_dp*(sums(1) + datum*sums(2)**2 + sum(problem%spring_loads(solution%motion)*solution%motion))
+    spring = problem%spring_loads(solution%motion)
+    works = [bounded_product(largest(1)*sums(1), largest(2)), bounded_product(datum*sums(2), sums(2)), &
+             bounded_product(spring, solution%motion)]
+    if (any(abs(works) >= huge(energy)/real(size(works), dp))) then
+      energy = huge(energy)
+    else
+      energy = 0.5_dp*sum(works)
+    end if
   end function elastic_energy
+
+  !> The product of two numbers, or the largest number of its sign where it would overflow.
+  elemental function bounded_product(a, b) result(product)
+    real(dp), intent(in) :: a, b
+    real(dp) :: product
+
+    if (.not. (abs(a) > 0.0_dp .and. abs(b) > 0.0_dp)) then
+      product = 0.0_dp
+    else if (exponent(a) + exponent(b) > maxexponent(product)) then
+      product = sign(huge(product), a)*sign(1.0_dp, b)
+    else
+      product = a*b
+    end if
+  end function bounded_product
 
   !> Motions are solved for together: each one that moves a point is rounded like the largest `magnitude` (n) of the
   !> body.
