@@ -1,7 +1,7 @@
 !> Derivatives of a solution with respect to gaps, loads and prescribed motions.
 module fuge_sensitivity
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_contact_states, only: is_at_stop, FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
+  use fuge_contact_states, only: is_at_stop
   use fuge_displacements, only: add_elastic_displacement, rigid_displacement
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor

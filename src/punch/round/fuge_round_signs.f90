@@ -6,7 +6,7 @@
 !> the radius, the gap is examined by `fuge_smooth_exterior`, unless (r g')' is nowhere negative: then no gap can be.
 module fuge_round_signs
   use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_derivative, chebyshev_points
-  use fuge_abel_transform, only: abel_transform, expand_transform
+  use fuge_abel_transform, only: abel_transform
   use fuge_kinds, only: dp
   use fuge_power_profile_type, only: fuge_power_profile
   use fuge_round_contact_type, only: fuge_round_contact

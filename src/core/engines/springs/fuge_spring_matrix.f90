@@ -14,7 +14,7 @@ module fuge_spring_matrix
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_OVERFLOW
   implicit none
   private
 
