@@ -433,9 +433,9 @@ int fuge_set_excluded(fuge_solver *s, const int *excluded);
 /* A spring between the bodies at each point, such as a gasket, a bed or a member: the force f
  * closes its gap by compliance*f more, c = g + (alpha + D) f - R q with D = diag(compliance).
  *   compliance  in  n, >= 0; length per force.  NULL: none
- * Compliances and springs on motions need a dense operator, of whose matrix the solver then
- * keeps a copy, and the active set or the tableau: FUGE_ERR_UNSUPPORTED from fuge_solve with
- * another engine, and from fuge_follow_path.  FUGE_ERR_LAW for a negative one,
+ * Of a dense operator the solver keeps a copy of the matrix then, with springs, unless the
+ * iteration solves.  Every engine knows compliances and springs on motions, but neither ranks
+ * nor fuge_follow_path do: FUGE_ERR_UNSUPPORTED.  FUGE_ERR_LAW for a negative one,
  * FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
 int fuge_set_compliance(fuge_solver *s, const double *compliance);
 

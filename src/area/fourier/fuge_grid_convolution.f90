@@ -50,6 +50,8 @@ module fuge_grid_convolution
   type :: product_job
     integer :: cells(2) = 0, length(2) = 0
     logical :: padded(2) = .false.
+    !> Added to the inverse of the kernel, times its factor; 0 for none.
+    real(dp) :: softening = 0.0_dp
     type(fft_plan), pointer :: rows => null(), columns => null()
     real(dp), pointer, contiguous :: row_twist(:, :) => null(), column_twist(:, :) => null(), spectrum(:, :) => null()
     real(dp), pointer, contiguous :: x(:) => null(), y(:) => null()
@@ -72,7 +74,6 @@ contains
     logical, intent(in) :: padded(2)
     real(dp), allocatable, intent(inout) :: spectrum(:, :)
     integer, intent(out) :: status
-    real(dp) :: circle
     integer :: k
 
     status = FUGE_ERR_SIZE
@@ -83,12 +84,19 @@ contains
     self%padded = padded
     if (allocated(self%spectrum)) deallocate (self%spectrum)
     call move_alloc(spectrum, self%spectrum)
-    ! Half of each pair of rows.
-    circle = 2.0_dp*product(real(plan%length, dp)*merge(2.0_dp, 1.0_dp, padded))
     do k = lbound(self%spectrum, 2), ubound(self%spectrum, 2)
-      self%spectrum(:, k) = self%spectrum(:, k)/circle
+      self%spectrum(:, k) = self%spectrum(:, k)/circle_factor(plan, padded)
     end do
   end subroutine set_kernel
+
+  !> What the transforms multiply by, twice, because half of each pair of rows is wanted.
+  pure function circle_factor(plan, padded) result(factor)
+    type(grid_plan), intent(in) :: plan
+    logical, intent(in) :: padded(2)
+    real(dp) :: factor
+
+    factor = 2.0_dp*product(real(plan%length, dp)*merge(2.0_dp, 1.0_dp, padded))
+  end function circle_factor
 
   pure function is_set(self)
     class(grid_kernel), intent(in) :: self
@@ -134,17 +142,19 @@ contains
 
   !> y = the convolution of x with the kernel.
   !>
-  !> `plan` of the kernel's lengths; `x` and `y` of its `n` cells, x continued by zeros; `threads` >= 1. Several threads
-  !> may use kernel and plan at once. `status`: 0, or with y unchanged FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE,
-  !> FUGE_ERR_MEMORY.
-  !> The arrays have an explicit shape, because gfortran copies arrays to pass them as contiguous ones.
-  subroutine convolve(self, plan, n, x, y, threads, status)
+  !> `plan` of the kernel's lengths; `x` and `y` of its `n` cells, x continued by zeros; `threads` >= 1. With
+  !> `softening` >= 0 each number s of the spectrum becomes s/(1 + softening s): to the inverse of the kernel is added
+  !> `softening`. Several threads may use kernel and plan at once. `status`: 0, or with y unchanged FUGE_ERR_CALL_ORDER,
+  !> FUGE_ERR_SIZE, FUGE_ERR_MEMORY. The arrays have an explicit shape, because gfortran copies arrays to pass them as
+  !> contiguous ones.
+  subroutine convolve(self, plan, n, x, y, threads, status, softening)
     class(grid_kernel), intent(in), target :: self
     type(grid_plan), intent(in), target :: plan
     integer, intent(in) :: n, threads
     real(dp), intent(in), target :: x(n)
     real(dp), intent(inout), target :: y(n)
     integer, intent(out) :: status
+    real(dp), intent(in), optional :: softening
     type(product_job), target :: job
     logical, allocatable, target :: zero(:)
     type(taken_rows) :: rows
@@ -159,6 +169,7 @@ contains
     status = FUGE_ERR_MEMORY
     if (stat /= 0) return
     call describe_job(self, plan, x, y, job)
+    if (present(softening)) job%softening = softening*circle_factor(plan, self%padded)
     job%zero => zero
     call take_rows(plan%kept, row_stride(job%length(1), job%padded(1)), size(zero), rows, job%work, status)
     if (status /= FUGE_DONE) return
@@ -400,7 +411,12 @@ contains
     integer, intent(in) :: k
     real(c_double), intent(inout), contiguous, target :: f(:), t(:), u(:)
 
-    call convolve_line(job%columns, job%column_twist, job%cells(2), job%padded(2), job%spectrum(:, k + 1), f, t, u)
+    if (job%softening > 0.0_dp) then
+      call convolve_line(job%columns, job%column_twist, job%cells(2), job%padded(2), &
+                         job%spectrum(:, k + 1)/(1.0_dp + job%softening*job%spectrum(:, k + 1)), f, t, u)
+    else
+      call convolve_line(job%columns, job%column_twist, job%cells(2), job%padded(2), job%spectrum(:, k + 1), f, t, u)
+    end if
   end subroutine convolve_column
 
   !> Convolve the complex numbers `f`, of which the first `count` are given and wanted, with the kernel that has the

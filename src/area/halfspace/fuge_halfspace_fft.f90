@@ -44,6 +44,8 @@ module fuge_halfspace_fft
     procedure :: datum
     procedure :: magnitude => halfspace_magnitude
     procedure :: precondition
+    procedure :: has_preconditioner_on_bed
+    procedure :: precondition_on_bed
     procedure :: grid
     procedure :: coarsen
     procedure :: free_rim
@@ -252,6 +254,26 @@ contains
     if (status /= FUGE_DONE) return
     call self%inverse%convolve(self%plan, size(force), displacement, force, self%threads, status)
   end subroutine precondition
+
+  !> True after `set`.
+  function has_preconditioner_on_bed(self) result(preconditioned)
+    class(fuge_halfspace_operator), intent(in) :: self
+    logical :: preconditioned
+
+    preconditioned = self%has_preconditioner()
+  end function has_preconditioner_on_bed
+
+  !> The inverse on a periodic surface on a bed of the `compliance`, length per force; otherwise as `precondition`.
+  subroutine precondition_on_bed(self, compliance, displacement, force, status)
+    class(fuge_halfspace_operator), intent(in) :: self
+    real(dp), intent(in) :: compliance, displacement(:)
+    real(dp), intent(out) :: force(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(displacement), size(force), status)
+    if (status /= FUGE_DONE) return
+    call self%inverse%convolve(self%plan, size(displacement), displacement, force, self%threads, status, compliance)
+  end subroutine precondition_on_bed
 
   !> [nx, ny].
   function grid(self) result(cells)

@@ -46,6 +46,8 @@ module fuge_halfplane_fft
     procedure :: datum
     procedure :: magnitude => halfplane_magnitude
     procedure :: precondition
+    procedure :: has_preconditioner_on_bed
+    procedure :: precondition_on_bed
     procedure :: grid
     procedure :: coarsen
     procedure, private :: copy
@@ -209,6 +211,25 @@ contains
     call self%check_sizes(size(displacement), size(force), status)
     if (status == FUGE_DONE) call self%inverse%convolve(self%plan, displacement, force, status)
   end subroutine precondition
+
+  !> True after `set`.
+  function has_preconditioner_on_bed(self) result(preconditioned)
+    class(fuge_halfplane_operator), intent(in) :: self
+    logical :: preconditioned
+
+    preconditioned = self%has_preconditioner()
+  end function has_preconditioner_on_bed
+
+  !> The inverse on a periodic surface on a bed of the `compliance`, length per force; otherwise as `precondition`.
+  subroutine precondition_on_bed(self, compliance, displacement, force, status)
+    class(fuge_halfplane_operator), intent(in) :: self
+    real(dp), intent(in) :: compliance, displacement(:)
+    real(dp), intent(out) :: force(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(displacement), size(force), status)
+    if (status == FUGE_DONE) call self%inverse%convolve(self%plan, displacement, force, status, compliance)
+  end subroutine precondition_on_bed
 
   !> [n, 1] after `set`: the cells are side by side in the order of their numbers.
   function grid(self) result(cells)

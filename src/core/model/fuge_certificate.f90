@@ -169,17 +169,22 @@ contains
     real(dp), intent(in) :: displacement(:), datum
     type(point_space), intent(in) :: space
     real(dp) :: energy
-    real(dp) :: largest(2), spring(size(solution%motion)), sums(2), works(2 + size(solution%motion))
+    real(dp) :: largest(2), spring(size(solution%motion)), sums(2), unit(2), works(2 + size(solution%motion))
+    integer :: k
 
     energy = 0.0_dp
     largest = [maxval(abs(solution%force)), maxval(abs(displacement))]
     call space%raise(largest)
-    if (.not. largest(1) > 0.0_dp) largest(1) = 1.0_dp
-    if (.not. largest(2) > 0.0_dp) largest(2) = 1.0_dp
-    sums = [sum((solution%force/largest(1))*(displacement/largest(2))), sum(solution%force)]
+    ! Powers of two up to the largest ones, so that no product overflows and none of the large ones is lost.
+    unit = 2.0_dp**(max(exponent(largest), minexponent(unit)) - 1)
+    sums = 0.0_dp
+    do k = 1, size(displacement)
+      sums(1) = sums(1) + (solution%force(k)*(1.0_dp/unit(1)))*(displacement(k)*(1.0_dp/unit(2)))
+      sums(2) = sums(2) + solution%force(k)
+    end do
     call space%add(sums)
     spring = problem%spring_loads(solution%motion)
-    works = [bounded_product(largest(1)*sums(1), largest(2)), bounded_product(datum*sums(2), sums(2)), &
+    works = [bounded_product(unit(1)*sums(1), unit(2)), bounded_product(datum*sums(2), sums(2)), &
              bounded_product(spring, solution%motion)]
     if (any(abs(works) >= huge(energy)/real(size(works), dp))) then
       energy = huge(energy)
@@ -340,12 +345,30 @@ contains
       ! Half a unit in the last place each, of the gaps and of the motions, and as much for their sum.
       rounding = abs(gap(k)) + abs(at_reference(3)) + rigid_magnitude(k)
       excess = max(abs(error(k) - shared) - 2.0_dp*epsilon(shared)*rounding, 0.0_dp)
-      violation = max(violation, relative(excess, magnitude(k) + at_reference(2)))
+      call raise_to(violation, excess, magnitude(k) + at_reference(2))
     end do
     violation = space%largest(violation)
     if (translation) violation = max(violation, &
       relative(abs(shared), max(at_reference(4), abs(at_reference(3)), at_reference(2))))
   end function gap_violation
+
+  !> Raise `violation` to `value` relative to `measure`. Few values do, and only they are divided.
+  pure subroutine raise_to(violation, value, measure)
+    real(dp), intent(inout) :: violation
+    real(dp), intent(in) :: value, measure
+
+    if (may_exceed(violation, value, measure)) violation = max(violation, relative(value, measure))
+  end subroutine raise_to
+
+  !> May `value` relative to `measure` exceed `violation`?
+  pure function may_exceed(violation, value, measure)
+    real(dp), intent(in) :: violation, value, measure
+    logical :: may_exceed
+
+    may_exceed = .true.
+    ! The product must not overflow; a NaN may exceed anything.
+    if (violation < 1.0_dp) may_exceed = .not. value <= violation*measure
+  end function may_exceed
 
   !> Signs and complementarity, equation (10) at both stops.
   subroutine contact_violations(problem, solution, magnitude, included, space, violation)
@@ -357,12 +380,14 @@ contains
     type(fuge_violation), intent(inout) :: violation
     real(dp), allocatable :: by_mode(:)
     real(dp) :: largest, body_force, rounding, upper, stop_distance, violations(2)
+    logical :: has_limits
     integer :: k
 
     violation%sign = 0.0_dp
     violation%complementarity = 0.0_dp
     largest = space%largest(maxval(abs(solution%force)))
     upper = huge(upper)
+    has_limits = problem%has_limits()
     body_force = largest
     ! Not by assignment, for which gfortran compares bounds that are not there yet.
     if (allocated(problem%modes)) allocate (by_mode, source=largest_by_mode(problem%modes, solution%force, space))
@@ -374,25 +399,27 @@ contains
       if (allocated(by_mode)) rounding = merge(0.0_dp, rounding, is_loaded(problem, k))
       associate (f => solution%force(k), c => solution%gap(k))
         if (.not. included(k)) then
-          violation%sign = max(violation%sign, relative(abs(f), largest))
+          call raise_to(violation%sign, abs(f), largest)
           cycle
         end if
-        if (problem%has_limits()) then
+        if (has_limits) then
           call judge_law(problem%law(k), f, c, body_force, magnitude(k), rounding, violation)
           cycle
         end if
         if (allocated(problem%gap_upper)) upper = min(problem%gap_upper(k), huge(upper))
-        violation%sign = max(violation%sign, relative(-c, magnitude(k)))
+        call raise_to(violation%sign, -c, magnitude(k))
         if (upper < huge(upper)) then
-          violation%sign = max(violation%sign, relative(c - upper, magnitude(k)))
+          call raise_to(violation%sign, c - upper, magnitude(k))
         else
-          violation%sign = max(violation%sign, relative(max(-f - rounding, 0.0_dp), body_force))
+          call raise_to(violation%sign, max(-f - rounding, 0.0_dp), body_force)
         end if
         stop_distance = c
         if (f < 0.0_dp .and. upper < huge(upper)) stop_distance = c - upper
-        violation%complementarity = max(violation%complementarity, &
-                                        min(relative(max(abs(f) - rounding, 0.0_dp), body_force), &
-                                            relative(abs(stop_distance), magnitude(k))))
+        if (abs(f) <= rounding) cycle
+        if (may_exceed(violation%complementarity, abs(stop_distance), magnitude(k))) then
+          violation%complementarity = max(violation%complementarity, min(relative(abs(f) - rounding, body_force), &
+                                                                         relative(abs(stop_distance), magnitude(k))))
+        end if
       end associate
     end do
     violations = [violation%sign, violation%complementarity]

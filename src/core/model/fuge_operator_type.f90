@@ -6,7 +6,7 @@ module fuge_operator_type
   use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_point_space, only: point_space
-  use fuge_status, only: FUGE_DONE, FUGE_ERR_SIZE
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_OPTION, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -30,6 +30,10 @@ module fuge_operator_type
     procedure :: has_preconditioner => without_preconditioner
     !> f = M u, with M symmetric, positive definite and close to the inverse of A.
     procedure :: precondition => copy_displacement
+    !> Is there a preconditioner of A on a bed?
+    procedure :: has_preconditioner_on_bed => without_bed
+    !> f = M u, with M symmetric, positive definite and close to the inverse of A + compliance.
+    procedure :: precondition_on_bed => ignore_bed
     !> The equal cells of a grid that the points are, in each direction.
     procedure :: grid => no_grid
     !> Does the surface go on beyond the grid, free, in each direction?
@@ -88,6 +92,26 @@ contains
     force = displacement
     status = merge(FUGE_DONE, FUGE_ERR_SIZE, self%points() == size(displacement))
   end subroutine copy_displacement
+
+  !> False by default: compliances of the points are then not part of the preconditioner.
+  function without_bed(self) result(preconditioned)
+    class(fuge_operator), intent(in) :: self
+    logical :: preconditioned
+
+    preconditioned = self%points() < 0
+  end function without_bed
+
+  !> As `precondition`, where all points have the same `compliance` >= 0 besides, length per force, as on a Winkler bed.
+  !> Called only if `has_preconditioner_on_bed` is true.
+  subroutine ignore_bed(self, compliance, displacement, force, status)
+    class(fuge_operator), intent(in) :: self
+    real(dp), intent(in) :: compliance, displacement(:)
+    real(dp), intent(out) :: force(:)
+    integer, intent(out) :: status
+
+    call self%precondition(displacement, force, status)
+    if (.not. compliance >= 0.0_dp) status = FUGE_ERR_OPTION
+  end subroutine ignore_bed
 
   !> [nx, ny] if the points are equal cells of a grid, the number i + nx*(j - 1) for the cell i of row j; [n, 1]
   !> for cells side by side. [0, 0], as in this default, if the positions of the points are unknown.

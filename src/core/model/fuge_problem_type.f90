@@ -67,9 +67,13 @@ module fuge_problem_type
     procedure :: has_law
     procedure :: law
     procedure :: spring_loads
+    procedure :: stiffnesses
+    procedure :: motions_on_springs
     procedure :: mode_count
     procedure :: is_plain
+    procedure :: has_one_load
     procedure :: prescribed_motion
+    procedure :: resultants
   end type fuge_problem
 
   !> The solution of a contact problem, in the same units.
@@ -111,10 +115,19 @@ contains
     class(fuge_problem), intent(in) :: self
     logical :: plain
 
-    plain = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded) &
-                   .or. self%has_limits() .or. self%has_springs())
-    if (plain .and. allocated(self%prescribed)) plain = .not. any(self%prescribed)
+    plain = self%has_one_load() .and. .not. self%has_springs()
   end function is_plain
+
+  !> Is there one free translation, not on a spring, and one-sided contact at all points? Then the load cannot be
+  !> negative, and without one nothing is displaced, whatever the compliances.
+  pure function has_one_load(self)
+    class(fuge_problem), intent(in) :: self
+    logical :: has_one_load
+
+    has_one_load = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded) &
+                          .or. self%has_limits() .or. any(self%motions_on_springs()))
+    if (has_one_load .and. allocated(self%prescribed)) has_one_load = .not. any(self%prescribed)
+  end function has_one_load
 
   !> Do forces have limits?
   pure function has_limits(self)
@@ -159,11 +172,28 @@ contains
     real(dp), intent(in) :: motion(:)
     real(dp) :: loads(size(motion))
 
-    loads = 0.0_dp
-    if (.not. allocated(self%motion_stiffness)) return
-    loads = self%motion_stiffness*motion
-    if (allocated(self%prescribed)) where (self%prescribed) loads = 0.0_dp
+    loads = self%stiffnesses()*motion
   end function spring_loads
+
+  !> The stiffness of the spring on each motion, (m); zero where there is none, or the motion is prescribed.
+  pure function stiffnesses(self)
+    class(fuge_problem), intent(in) :: self
+    real(dp) :: stiffnesses(self%mode_count())
+
+    stiffnesses = 0.0_dp
+    if (allocated(self%motion_stiffness)) stiffnesses = self%motion_stiffness
+    if (allocated(self%prescribed)) where (self%prescribed) stiffnesses = 0.0_dp
+  end function stiffnesses
+
+  !> Which motions are free and on a spring, (m)?
+  pure function motions_on_springs(self) result(on_spring)
+    class(fuge_problem), intent(in) :: self
+    logical :: on_spring(self%mode_count())
+    real(dp) :: stiffness(self%mode_count())
+
+    stiffness = self%stiffnesses()
+    on_spring = stiffness > 0.0_dp
+  end function motions_on_springs
 
   !> The prescribed motions, zero where free, (m).
   pure function prescribed_motion(self) result(values)
@@ -173,6 +203,16 @@ contains
     values = 0.0_dp
     if (allocated(self%prescribed)) where (self%prescribed) values = self%motion
   end function prescribed_motion
+
+  !> The resultants, zero where the motion is prescribed, (m).
+  pure function resultants(self) result(values)
+    class(fuge_problem), intent(in) :: self
+    real(dp) :: values(self%mode_count())
+
+    values = 0.0_dp
+    if (allocated(self%resultant)) values = self%resultant
+    if (allocated(self%prescribed)) where (self%prescribed) values = 0.0_dp
+  end function resultants
 
   !> The plain problem: `gap` (n), length, and one `load`, force. Error: FUGE_ERR_MEMORY.
   pure subroutine set_problem(gap, load, problem, info)
@@ -280,7 +320,7 @@ contains
     if (.not. any(free)) return
     call check_length(problem%resultant, m, 'resultant', info)
     if (info%failed()) return
-    if (problem%is_plain()) then
+    if (problem%has_one_load()) then
       call check_load(problem%resultant(1), info)
     else
       call check_values(merge(problem%resultant, 0.0_dp, free), 'resultant', info)

@@ -276,20 +276,55 @@ contains
 
   !> y = the first values of the convolution of x with the kernel.
   !>
-  !> `plan` of the kernel's length N; `x` and `y` (at most N), x continued by zeros. Several threads may use
-  !> kernel and plan at once. `status`: 0, or with y unchanged FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE,
-  !> FUGE_ERR_MEMORY.
-  subroutine convolve(self, plan, x, y, status)
+  !> `plan` of the kernel's length N; `x` and `y` (at most N), x continued by zeros. With `softening` >= 0 each number s
+  !> of the spectrum of a cyclic convolution becomes s/(1 + softening s): to the inverse of the kernel is added
+  !> `softening`. Several threads may use kernel and plan at once. `status`: 0, or with y unchanged
+  !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
+  subroutine convolve(self, plan, x, y, status, softening)
     class(convolution_kernel), intent(in) :: self
     type(fft_plan), intent(in) :: plan
     real(dp), intent(in) :: x(:)
     real(dp), intent(inout) :: y(:)
     integer, intent(out) :: status
+    real(dp), intent(in), optional :: softening
+    type(convolution_kernel) :: softer
 
     status = merge(FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, self%length == 0 .or. plan%length == 0)
     if (self%length /= plan%length .or. self%length == 0 .or. max(size(x), size(y)) > self%length) return
-    call convolve_values(self, plan, size(x), x, size(y), y, status)
+    if (present(softening)) then
+      if (allocated(self%odd_factors)) return
+      call softer%copy_from(self, status)
+      if (status /= 0) status = FUGE_ERR_MEMORY
+      if (status /= FUGE_DONE) return
+      call soften(softening*real(self%length, dp), softer%factors)
+      call convolve_values(softer, plan, size(x), x, size(y), y, status)
+    else
+      call convolve_values(self, plan, size(x), x, size(y), y, status)
+    end if
   end subroutine convolve
+
+  !> The factors of the spectrum s/(1 + softening s) from those of s, which are those of `set_cyclic`.
+  pure subroutine soften(softening, factors)
+    real(dp), intent(in) :: softening
+    real(dp), intent(inout), contiguous :: factors(:, 0:)
+    real(dp) :: difference, mean, product, reduction
+    integer :: k
+
+    if (size(factors, 1) == 1) then
+      factors = factors/(1.0_dp + softening*factors)
+      return
+    end if
+    do k = 0, ubound(factors, 2)
+      ! Sum, square of the difference and product of the two numbers whose factors these are.
+      mean = 0.5_dp*(factors(1, k) + factors(2, k))
+      difference = 0.5_dp*(factors(2, k) - factors(1, k))
+      product = 0.25_dp*(mean**2 - (difference**2 + factors(3, k)**2))
+      reduction = 1.0_dp/(1.0_dp + softening*(mean + softening*product))
+      mean = reduction*(mean + 2.0_dp*softening*product)
+      difference = reduction*difference
+      factors(:, k) = [mean - difference, mean + difference, reduction*factors(3, k)]
+    end do
+  end subroutine soften
 
   !> As `convolve`, checked. The arrays have an explicit shape, because gfortran copies arrays to pass them as
   !> contiguous ones.

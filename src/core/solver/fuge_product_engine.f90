@@ -10,20 +10,35 @@ module fuge_product_engine
   use fuge_monitor_type, only: fuge_monitor
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
-  use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
+  use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution, set_problem
   use fuge_point_space, only: point_space
   use fuge_set_derivative, only: find_derivative_by_products
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_ITERATION_LIMIT, &
-    FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_UNSUPPORTED
+  use fuge_spring_operator, only: spring_operator
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_CALLBACK, &
+    FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW, &
+    FUGE_ERR_UNSUPPORTED
   use fuge_warm_start, only: load_history
   implicit none
   private
+
+  !> A motion on a spring is free from this excess of `excess_motions` on.
+  real(dp), parameter :: MUCH_FARTHER = 1.0e3_dp
+  real(dp), parameter :: LARGEST_EXCESS = 1.0e300_dp
+  !> The tolerance on springs, of that of the solve over the excess; and none is stricter.
+  real(dp), parameter :: SAFETY = 0.1_dp
+  real(dp), parameter :: STRICTEST = 1.0e-13_dp
+  !> Solves of one problem with springs on motions.
+  integer, parameter :: PASSES = 8
 
   type, extends(contact_engine), public :: product_engine
     private
     !> The last solutions.
     type(load_history) :: steps
     type(iterated_set) :: last
+    !> The springs of the last problem; not allocated: none. And the stiffness of those too soft for the operator, (m),
+    !> zero where it has the spring.
+    type(spring_operator), allocatable :: springs
+    real(dp), allocatable :: soft(:)
     !> The last problem needed its canonical form; otherwise, whether its approach was prescribed.
     logical :: is_general = .false., is_prescribed = .false.
   contains
@@ -58,16 +73,129 @@ contains
                   //'leave keep_history out')
       return
     end if
-    if (problem%has_springs()) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the iteration knows no compliance and no springs on motions: use a ' &
-                  //'dense operator and FUGE_ACTIVE_SET')
-      return
-    end if
     space = operator%ranks()
-    if (problem%has_limits() .and. .not. space%is_alone()) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'ranks know no limits of forces: solve on one process')
+    if (problem%has_law() .and. .not. space%is_alone()) then
+      call report(info, FUGE_ERR_UNSUPPORTED, 'ranks know no compliance, limits or springs on motions: solve on one ' &
+                  //'process')
       return
     end if
+    if (allocated(self%springs)) deallocate (self%springs)
+    if (problem%has_springs()) then
+      call solve_on_springs(self, operator, problem, options, monitor, solution, info)
+    else
+      call solve_by_products(self, operator, problem, options, monitor, solution, info)
+    end if
+  end subroutine solve
+
+  !> With springs, as parts of the operator. A motion on a spring so soft that the resultant would move it much farther
+  !> than it gets is free instead, under the resultant less what its spring takes: a few solves find that, each with an
+  !> error that is smaller by the same factor.
+  subroutine solve_on_springs(self, operator, problem, options, monitor, solution, info)
+    class(product_engine), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    ! Not that of the engine, which changes while it solves.
+    type(spring_operator), allocatable :: springs
+    type(fuge_options) :: stricter
+    logical :: on_spring(problem%mode_count())
+    real(dp), dimension(problem%mode_count()) :: carried, excess, load
+    integer :: pass
+
+    allocate (springs)
+    stricter = options
+    on_spring = problem%motions_on_springs()
+    load = problem%resultants()
+    do pass = 1, PASSES
+      call springs%set_springs(problem, on_spring, operator%ranks(), info)
+      if (info%failed()) exit
+      call springs%attach(operator)
+      call solve_attached(self, springs, problem, load, stricter, monitor, solution, info)
+      if (info%failed()) then
+        ! Contact may not carry what the springs seem to leave to it.
+        if (pass == 1 .or. any(info%status == [FUGE_ERR_CANCELLED, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY])) exit
+        call report(info, FUGE_DONE, '')
+        on_spring = problem%motions_on_springs()
+        load = problem%resultants()
+        call springs%set_springs(problem, on_spring, operator%ranks(), info)
+        if (info%failed()) exit
+        call springs%attach(operator)
+        call solve_attached(self, springs, problem, load, options, monitor, solution, info)
+        exit
+      end if
+      excess = merge(excess_motions(problem, operator%ranks(), solution), 0.0_dp, on_spring)
+      carried = merge(load, problem%resultants() - problem%spring_loads(solution%motion), on_spring)
+      if (.not. any(excess > MUCH_FARTHER .or. abs(carried - load) > options%tolerance*abs(problem%resultants()))) then
+        if (stricter%tolerance < options%tolerance .or. .not. any(excess > 1.0_dp)) exit
+        ! The equations on springs have larger terms than the certificate will see.
+        stricter%tolerance = max(SAFETY*options%tolerance/maxval(excess), STRICTEST)
+      end if
+      load = merge(problem%resultants() - problem%spring_loads(solution%motion), carried, excess > MUCH_FARTHER)
+      on_spring = on_spring .and. .not. excess > MUCH_FARTHER
+    end do
+    call springs%detach()
+    call move_alloc(springs, self%springs)
+    self%soft = problem%stiffnesses()
+    where (on_spring) self%soft = 0.0_dp
+  end subroutine solve_on_springs
+
+  !> Solve on `springs`, with the resultants `load` (m).
+  subroutine solve_attached(self, springs, problem, load, options, monitor, solution, info)
+    class(product_engine), intent(inout) :: self
+    type(spring_operator), intent(in) :: springs
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: load(:)
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    type(fuge_problem) :: fixed
+
+    call springs%fix_motions(problem, load, fixed)
+    call solve_by_products(self, springs, fixed, options, monitor, solution, info)
+    if (.not. info%failed()) call springs%find_motions(load, solution%force, solution%motion)
+  end subroutine solve_attached
+
+  !> How many times farther than any point gets the resultant would move each motion on its spring alone, (m).
+  function excess_motions(problem, space, solution) result(excess)
+    type(fuge_problem), intent(in) :: problem
+    type(point_space), intent(in) :: space
+    type(fuge_solution), intent(in) :: solution
+    real(dp) :: excess(size(solution%motion))
+    real(dp) :: arm(size(solution%motion)), farthest
+    logical :: on_spring(size(solution%motion))
+    integer :: j
+
+    on_spring = problem%motions_on_springs()
+    arm = 1.0_dp
+    if (allocated(problem%modes)) then
+      do j = 1, size(arm)
+        arm(j) = space%largest(maxval(abs(problem%modes(:, j))))
+      end do
+    end if
+    farthest = max(space%largest(maxval(abs(solution%gap - problem%gap))), maxval(arm*abs(solution%motion)))
+    excess = 0.0_dp
+    do j = 1, size(excess)
+      if (.not. on_spring(j)) cycle
+      associate (alone => arm(j)*(abs(problem%resultant(j))/problem%motion_stiffness(j)))
+        if (alone > farthest) excess(j) = min(alone/max(farthest, tiny(farthest)), LARGEST_EXCESS)
+      end associate
+    end do
+  end function excess_motions
+
+  subroutine solve_by_products(self, operator, problem, options, monitor, solution, info)
+    class(product_engine), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    type(point_space) :: space
+
     self%is_general = is_general(problem)
     self%is_prescribed = .not. (self%is_general .or. problem%is_plain())
     if (self%is_general) call make_canonical(problem, self%canonical, info, operator%ranks())
@@ -85,7 +213,7 @@ contains
     if (.not. info%failed()) call give_states(self%last, solution, info)
     space = operator%ranks()
     call space%agree(info)
-  end subroutine solve
+  end subroutine solve_by_products
 
   !> A copy of the states for the caller, because derivatives need them too. Error: FUGE_ERR_MEMORY.
   subroutine give_states(set, solution, info)
@@ -109,7 +237,7 @@ contains
     type(fuge_info), intent(inout) :: info
 
     ! Points that give way make the level of the forces unique.
-    if (self%is_general .and. .not. problem%has_limits()) then
+    if (self%is_general .and. .not. problem%has_law()) then
       call judge_force_level(operator, self%canonical, problem%gap, self%last%state, tolerance, info)
     end if
   end subroutine judge
@@ -145,9 +273,42 @@ contains
     if (self%is_general) number = self%canonical%mode_count()
   end function last_modes
 
-  !> By products on the contact set. No canonical form is kept of problems with one translation. Errors: those of
-  !> `find_derivative_by_products`.
+  !> By products on the contact set. Errors: those of `find_derivative_by_products`.
   subroutine derivative(self, operator, gap_change, load_change, change, info)
+    class(product_engine), intent(in) :: self
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(inout) :: info
+    type(spring_operator), allocatable :: springs
+    real(dp), dimension(size(load_change)) :: carried, corrected, fixed_change
+    type(fuge_solution) :: found
+    integer :: pass, stat
+
+    if (.not. allocated(self%springs)) then
+      call differentiate(self, operator, gap_change, load_change, change, info)
+      return
+    end if
+    allocate (springs, source=self%springs, stat=stat)
+    call require_memory(stat, 'the springs of', size(gap_change), 'points', info)
+    if (stat /= 0) return
+    call springs%attach(operator)
+    carried = load_change
+    do pass = 1, PASSES
+      fixed_change = carried
+      call springs%prescribe_motions(fixed_change)
+      call differentiate(self, springs, gap_change, fixed_change, found, info)
+      if (info%failed()) return
+      call springs%find_motions(carried, found%force, found%motion)
+      corrected = load_change - self%soft*found%motion
+      if (all(abs(corrected - carried) <= self%last%tolerance*max(abs(corrected), abs(load_change)))) exit
+      carried = corrected
+    end do
+    call move_solution(found, change)
+  end subroutine derivative
+
+  !> Without springs. No canonical form is kept of problems with one translation.
+  subroutine differentiate(self, operator, gap_change, load_change, change, info)
     class(product_engine), intent(in) :: self
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap_change(:), load_change(:)
@@ -172,6 +333,6 @@ contains
     if (.not. info%failed()) call find_derivative_by_products(operator, canonical, self%last%state, &
                                                               self%last%tolerance, gap_change, load_change, change, &
                                                               info)
-  end subroutine derivative
+  end subroutine differentiate
 
 end module fuge_product_engine

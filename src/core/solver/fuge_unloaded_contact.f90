@@ -12,12 +12,12 @@ module fuge_unloaded_contact
 
 contains
 
-  !> The plain problem without a load, which has no unique approach.
+  !> One translation without a load, which has no unique approach.
   pure function is_unloaded(problem)
     type(fuge_problem), intent(in) :: problem
     logical :: is_unloaded
 
-    is_unloaded = problem%is_plain()
+    is_unloaded = problem%has_one_load()
     if (is_unloaded) is_unloaded = .not. problem%resultant(1) > 0.0_dp
   end function is_unloaded
 

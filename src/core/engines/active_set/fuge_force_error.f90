@@ -61,26 +61,35 @@ contains
     type(fuge_info), intent(inout) :: info
     type(estimate_arrays) :: arrays
     real(dp) :: by_modes, by_set, largest, worst
-    integer :: n, stat
 
     force_error = 0.0_dp
     largest = maxval(abs(solution%force))
     if (.not. largest > 0.0_dp) return
     force_error = 1.0_dp
     if (factor%regularisation > 0.0_dp) return
-    n = size(solution%force)
-    allocate (arrays%contact(n), arrays%column(n), arrays%force(n), arrays%force_change(n), arrays%open(n), stat=stat)
-    call require_memory(stat, 'the estimated error of', n, 'forces', info)
-    if (stat /= 0) return
-    arrays%contact = is_at_stop(solution%state)
     by_modes = 0.0_dp
+    by_set = 0.0_dp
     if (.not. canonical%plain) call error_by_modes(canonical, factor, problem, motion, solution, arrays, by_modes, info)
+    if (.not. info%failed()) call error_by_contact_set(canonical, alpha, factor, solution, arrays, by_set, info)
     if (info%failed()) return
-    call error_by_contact_set(canonical, alpha, factor, solution, arrays, by_set)
     worst = max(solution%force_error, by_modes, by_set)
     ! The quotient of others could overflow.
     if (worst < largest) force_error = worst/largest
   end subroutine estimate_force_error
+
+  !> Allocate the arrays, unless they are already, for the set of the `solution`. Error: FUGE_ERR_MEMORY.
+  subroutine make_room(arrays, solution, info)
+    type(estimate_arrays), intent(inout) :: arrays
+    type(contact_solution), intent(in) :: solution
+    type(fuge_info), intent(inout) :: info
+    integer :: n, stat
+
+    if (allocated(arrays%contact)) return
+    n = size(solution%force)
+    allocate (arrays%contact(n), arrays%column(n), arrays%force(n), arrays%force_change(n), arrays%open(n), stat=stat)
+    call require_memory(stat, 'the estimated error of', n, 'forces', info)
+    if (stat == 0) arrays%contact = is_at_stop(solution%state)
+  end subroutine make_room
 
   !> The largest change of a force by the rounding of modes and of prescribed motions, an estimate: one solve with the
   !> factor of the contact set, unless that set is large and a bound small.
@@ -102,6 +111,8 @@ contains
 
     error = 0.0_dp
     exact = exact_modes(problem)
+    call make_room(arrays, solution, info)
+    if (info%failed()) return
     allocate (arrays%length(size(solution%force)), stat=stat)
     call require_memory(stat, 'the estimated error of', size(solution%force), 'forces', info)
     if (stat /= 0) return
@@ -176,13 +187,15 @@ contains
   !> for few such points two solves each.
   !>
   !> `alpha` as in `canonical`; `solution` of the contact set of `factor`; `arrays` as `error_by_modes` leaves them.
-  subroutine error_by_contact_set(canonical, alpha, factor, solution, arrays, error)
+  !> Error: FUGE_ERR_MEMORY.
+  subroutine error_by_contact_set(canonical, alpha, factor, solution, arrays, error, info)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in), contiguous :: alpha(:, :)
     type(kkt_factor), intent(in) :: factor
     type(contact_solution), intent(in) :: solution
     type(estimate_arrays), intent(inout) :: arrays
     real(dp), intent(out) :: error
+    type(fuge_info), intent(inout) :: info
     real(dp) :: change, relative, most, open, slack
     integer :: k, points
 
@@ -196,6 +209,8 @@ contains
       if (is_at_stop(solution%state(k)) .or. canonical%excluded(k)) cycle
       slack = canonical%slack(k, solution%state(k), solution%gap(k))
       if (slack > most) cycle
+      call make_room(arrays, solution, info)
+      if (info%failed()) return
       open = relative*displacement_magnitude_at(alpha, canonical%datum, arrays%contact, solution%force, k)
       ! Signs were compared with the gap too, that of the upper stop.
       open = open + solution%violation*solution%gap(k)

@@ -6,7 +6,7 @@ module fuge_working_set
   use fuge_canonical_problem, only: canonical_problem
   use fuge_compensated_sums, only: difference_rounding
   use fuge_contact_solution, only: contact_solution
-  use fuge_contact_states, only: is_at_stop, FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, &
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, &
     FUGE_LIMITED_UPPER, FUGE_OPEN
   use fuge_displacements, only: add_elastic_displacement, add_open_displacement, displacement_magnitude_at
   use fuge_kinds, only: dp
@@ -90,7 +90,7 @@ contains
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: state(:)
 
-    self%contact = is_at_stop(state)
+    self%contact = abs(state) == FUGE_AT_LOWER_STOP
     call find_gap_at_stops(self, canonical, state)
     if (allocated(self%limit_force)) deallocate (self%limit_force, self%limit_displacement)
     if (any(abs(state) > 1)) call load_limited_points(self, canonical, state)
@@ -317,7 +317,7 @@ contains
     do j = 1, size(self%violation)
       if (canonical%excluded(j) .or. .not. (canonical%upper(j) > 0.0_dp .or. allocated(least))) cycle
       associate (state => solution%state(j), force => solution%force(j), gap => solution%gap(j))
-        if (is_at_stop(state)) then
+        if (self%contact(j)) then
           beyond = -force*state
           if (allocated(least)) beyond = max(least(j) - force, force - most(j))
           if (beyond <= self%zero_force) cycle

@@ -117,24 +117,14 @@ contains
     type(fuge_problem), intent(in) :: problem
     integer :: spring_count
 
-    spring_count = count(has_spring(problem))
+    spring_count = count(problem%motions_on_springs())
   end function spring_count
-
-  !> Which motions are free and have a spring, (m)?
-  pure function has_spring(problem)
-    type(fuge_problem), intent(in) :: problem
-    logical :: has_spring(problem%mode_count())
-
-    has_spring = .false.
-    if (allocated(problem%motion_stiffness)) has_spring = problem%motion_stiffness > 0.0_dp
-    if (allocated(problem%prescribed)) has_spring = has_spring .and. .not. problem%prescribed
-  end function has_spring
 
   pure function spring_stiffnesses(problem) result(stiffness)
     type(fuge_problem), intent(in) :: problem
     real(dp) :: stiffness(spring_count(problem))
 
-    if (allocated(problem%motion_stiffness)) stiffness = pack(problem%motion_stiffness, has_spring(problem))
+    if (allocated(problem%motion_stiffness)) stiffness = pack(problem%motion_stiffness, problem%motions_on_springs())
   end function spring_stiffnesses
 
   !> The largest displacement of a point by each motion on a spring, length per unit of the motion; 1 where it moves
@@ -148,7 +138,7 @@ contains
     largest = 1.0_dp
     if (allocated(problem%modes)) largest = [(maxval(abs(problem%modes(:, j))), j=1, size(largest))]
     where (.not. largest > 0.0_dp) largest = 1.0_dp
-    arm = pack(largest, has_spring(problem))
+    arm = pack(largest, problem%motions_on_springs())
   end function spring_arms
 
   !> The same problem without springs, for the matrix that has them: motions on springs have a tied point more. Error:
@@ -164,7 +154,7 @@ contains
 
     n = problem%points()
     m = problem%mode_count()
-    on_spring = has_spring(problem)
+    on_spring = problem%motions_on_springs()
     arm = spring_arms(problem)
     springs = spring_count(problem)
     infinity = ieee_value(1.0_dp, ieee_positive_inf)
@@ -226,7 +216,7 @@ contains
     integer :: j, spring
 
     if (spring_count(problem) < 1) return
-    on_spring = has_spring(problem)
+    on_spring = problem%motions_on_springs()
     arm = spring_arms(problem)
     displacement = 0.0_dp
     do j = 1, size(on_spring)
