@@ -299,7 +299,7 @@ contains
 
     solved = .false.
     level = 0
-    if (scene%is_simple()) level = survey_level(operator)
+    if (scene%rows%everywhere(scene%fits_window())) level = survey_level(operator)
     call nested_iteration(operator, coarse_settings, scene, coarsest_level(operator), max(level, 1), monitor, &
                           start, work, info)
     if (level > 0 .and. allocated(start) .and. .not. info%failed()) then

@@ -292,7 +292,12 @@ contains
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
 
-    if (.not. allocated(scene%modes)) return
+    if (.not. allocated(scene%modes)) then
+      ! What is left to the last point whose force is below its limit is the load less a sum, with its rounding.
+      if (scene%has_limits() .and. .not. iterate%prescribed) iterate%tension_noise = ROUNDINGS*epsilon(1.0_dp) &
+                                                                                     *sqrt(real(scene%points(), dp))
+      return
+    end if
     iterate%tension_noise = max(tension_by_rounding(settings, scene, iterate), rounding_force(scene, iterate))
   end subroutine set_tension_noise
 

@@ -27,6 +27,9 @@ module fuge_contact_window
   integer, parameter :: SURVEY_CELLS = 4096, FINER = 16
   !> A window of more than this fraction of the grid saves too little.
   real(dp), parameter :: WORTHWHILE = 0.25_dp
+  !> The limits of the forces in a window carry at least this multiple of the load: near their sum all points would be
+  !> at their limits.
+  real(dp), parameter :: ROOM = 1.5_dp
   !> Margin around the contact of the coarse grid, in its cells.
   integer, parameter :: MARGIN = 2
 
@@ -62,8 +65,8 @@ contains
 
   !> Forces to start from, `start`, solved on a window of the finest grid.
   !>
-  !> `coarse_settings` those of coarser grids, `settings` those of the finest one; `scene` a simple
-  !> one; `start` in: the forces on the grid that is `level` times coarser; out, if `solved`: those on the
+  !> `coarse_settings` those of coarser grids, `settings` those of the finest one; `scene` one
+  !> that fits a window; `start` in: the forces on the grid that is `level` times coarser; out, if `solved`: those on the
   !> finest grid, otherwise unchanged, because the window would be too large or the operator has none, nor that coarser
   !> grid; `least_compliance` as in contact_iterate, unknown to a whole grid that needs no step, 0 unless `solved`.
   !> Eleven arguments: two settings and three results. Errors: those of find_contact_set, FUGE_ERR_MEMORY.
@@ -98,6 +101,10 @@ contains
     box = contact_box(finest, level, own, rows%point_space, start)
     do
       if (.not. is_worthwhile(box)) return
+      if (.not. carries_load(box, scene)) then
+        call widen(box)
+        cycle
+      end if
       call operator%window(box%first, box%last, window)
       if (.not. allocated(window)) return
       call rows_of(window, 0, rows, info)
@@ -112,6 +119,35 @@ contains
     solved = .not. info%failed()
     if (solved) least_compliance = compliance
   end subroutine solve_in_window
+
+  !> Do the limits of the forces in the box leave room for the load, which is 1? Where ranks share points there are none.
+  pure function carries_load(box, scene) result(carries)
+    type(cell_box), intent(in) :: box
+    type(contact_scene), intent(in) :: scene
+    logical :: carries
+    real(dp) :: most
+    integer :: begin, j, n(2)
+
+    carries = scene%prescribed .or. .not. scene%has_limits()
+    if (carries) return
+    n = box%extent()
+    most = 0.0_dp
+    do j = box%first(2), box%last(2)
+      begin = box%cells(1)*(j - 1) + box%first(1)
+      most = most + sum(min(scene%limit(begin:begin + n(1) - 1), 1.0_dp))
+    end do
+    carries = most > ROOM
+  end function carries_load
+
+  !> Widen the box by half its cells on each side.
+  pure subroutine widen(box)
+    type(cell_box), intent(inout) :: box
+    integer :: cells(2)
+
+    cells = box%extent()/2 + 1
+    box%first = max(box%first - cells, 1)
+    box%last = min(box%last + cells, box%cells)
+  end subroutine widen
 
   !> Number of rows of the grid that is `level` times coarser.
   pure function coarser_rows(finest, level) result(rows)
@@ -204,6 +240,11 @@ contains
     window_scene%prescribed = scene%prescribed
     window_scene%rows = rows
     call box%gather(scene%gap, scene%rows, rows, window_scene%gap, info)
+    if (scene%has_limits()) then
+      if (.not. info%failed()) call box%gather(scene%play, scene%rows, rows, window_scene%play, info)
+      if (.not. info%failed()) call box%gather(scene%limit, scene%rows, rows, window_scene%limit, info)
+      if (.not. info%failed()) call box%gather(scene%limit_upper, scene%rows, rows, window_scene%limit_upper, info)
+    end if
     if (info%failed()) return
     if (.not. scene%prescribed) window_scene%gap = window_scene%gap - rows%least(minval(window_scene%gap))
     window_info = fuge_info(iterations=info%iterations)

@@ -38,6 +38,7 @@ module fuge_contact_scene
   contains
     procedure :: points
     procedure :: is_simple
+    procedure :: fits_window
     procedure :: is_unloaded
     procedure :: is_tied
     procedure :: has_limits
@@ -69,6 +70,16 @@ contains
 
     is_simple = .not. (allocated(self%modes) .or. allocated(self%play) .or. allocated(self%excluded))
   end function is_simple
+
+  !> One translation and one-sided contact at all points, whatever the limits of forces? Then a window of its points has
+  !> such a scene too.
+  pure function fits_window(self)
+    class(contact_scene), intent(in) :: self
+    logical :: fits_window
+
+    fits_window = .not. (allocated(self%modes) .or. allocated(self%excluded))
+    if (fits_window .and. allocated(self%play)) fits_window = all(self%play >= huge(1.0_dp))
+  end function fits_window
 
   !> Are there modes, and no resultants in them? Then forces only balance each other.
   pure function is_unloaded(self)
