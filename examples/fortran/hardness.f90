@@ -9,7 +9,7 @@
 !> Known: the contact has at least the area p/H at the mean pressure p, and just this area where it is plastic
 !> everywhere; at most p/H of A_0 is at its limit. A hardness above the largest pressure changes nothing, to the
 !> tolerance. A load beyond H A_0 is refused. Areas for all hardnesses follow from the theory of B. N. J. Persson
-!> (J. Chem. Phys. 115, 2001): the distribution of the pressure spreads with magnification, and is absorbed at 0, where
+!> (Phys. Rev. Lett. 87, 2001): the distribution of the pressure spreads with magnification, and is absorbed at 0, where
 !> the surfaces part, and at H, where they yield. Without a limit, the area is between Persson's and that of Bush,
 !> Gibson and Thomas, as in `surface`.
 !> On few cells, the iteration on the grid is compared with the active set, which has the matrix.

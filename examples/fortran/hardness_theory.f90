@@ -19,7 +19,7 @@ contains
   !>
   !> The distribution P of the pressure s obeys dP/dv = P''/2 with P = 0 at s = 0 and s = H, from all at the mean
   !> pressure for v = 0 to v = (E* g)**2/4. What is left is the elastic contact. The area that has been absorbed at H
-  !> carries, with the pressure H, what the elastic one does not. (B. N. J. Persson, J. Chem. Phys. 115, 3840, 2001)
+  !> carries, with the pressure H, what the elastic one does not. (B. N. J. Persson, Phys. Rev. Lett. 87, 116101, 2001)
   pure function persson_areas(pressure, limit) result(theory)
     real(dp), intent(in) :: pressure, limit
     type(areas) :: theory
