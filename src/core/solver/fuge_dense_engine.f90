@@ -114,7 +114,7 @@ contains
     call move_alloc(springs, self%springs)
     if (info%failed()) return
     self%spring_points = spring_count(problem)
-    call find_spring_motions(problem, extended, solution)
+    call find_spring_motions(problem, extended, solution%force, solution%motion)
     call strip_solution(problem%points(), solution)
   end subroutine solve_with_springs
 

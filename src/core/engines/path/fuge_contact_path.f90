@@ -19,6 +19,7 @@ module fuge_contact_path
   use fuge_path_position, only: load_line, path_position, position_at
   use fuge_path_type, only: fuge_path, move_path, trim_path
   use fuge_problem_type, only: fuge_problem, check_problem, check_load, set_problem
+  use fuge_spring_matrix, only: extend_problem, spring_matrix
   use fuge_status, only: composed_message, fuge_info, fuge_status_text, report, require_memory, FUGE_DONE, &
     FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED, FUGE_WARN_RESIDUAL
   implicit none
@@ -59,7 +60,7 @@ contains
       if (info%failed()) return
       line%start = [0.0_dp]
       line%rate = [1.0_dp]
-      call follow(operator, problem, line, path, info)
+      call follow(operator, problem, operator, problem, line, path, info)
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'the load path needs the coefficients of a dense operator')
     end select
@@ -79,24 +80,64 @@ contains
     real(dp), intent(in) :: finish(:)
     type(fuge_path), intent(inout) :: path
     type(fuge_info), intent(out) :: info
-    type(load_line) :: line
 
     select type (operator)
     class is (fuge_dense_operator)
       call check_start(operator, problem, info)
-      if (.not. info%failed()) call check_finish(operator, problem, finish, info)
       if (info%failed()) return
-      line%start = start_values(problem)
-      line%rate = finish - line%start
-      line%last = 1.0_dp
-      line%origin = 1.0_dp + min(size_ratio(line%start, line%rate), LARGEST_ORIGIN)
-      call follow(operator, problem, line, path, info)
+      if (problem%has_springs()) then
+        call follow_with_springs(operator, problem, finish, path, info)
+      else
+        call follow_to_finish(operator, problem, operator, problem, finish, path, info)
+      end if
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'the path needs the coefficients of a dense operator')
     end select
   end subroutine fuge_follow_path
 
-  !> Refuse an operator that is not set, a problem that does not fit it, and one whose points have laws of their own.
+  !> Compliances and springs on motions become parts of a matrix, and the path is that of the problem without them.
+  subroutine follow_with_springs(operator, problem, finish, path, info)
+    type(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: finish(:)
+    type(fuge_path), intent(inout) :: path
+    type(fuge_info), intent(inout) :: info
+    type(spring_matrix), target :: springs
+    type(fuge_dense_operator) :: with_springs
+    type(fuge_problem) :: extended
+
+    call springs%set(operator, problem, info)
+    if (.not. info%failed()) call extend_problem(problem, extended, info)
+    if (.not. info%failed() .and. extended%is_plain()) call check_load(extended%resultant(1), info)
+    if (info%failed()) return
+    call springs%as_operator(with_springs)
+    call follow_to_finish(operator, problem, with_springs, extended, finish, path, info)
+  end subroutine follow_with_springs
+
+  !> From the resultants and prescribed motions of a checked problem to those of `finish` (m). `operator` and `problem`
+  !> of the caller, `with_springs` and `extended` the same with springs as parts of the matrix.
+  subroutine follow_to_finish(operator, problem, with_springs, extended, finish, path, info)
+    type(fuge_dense_operator), intent(in) :: operator, with_springs
+    type(fuge_problem), intent(in) :: problem, extended
+    real(dp), intent(in) :: finish(:)
+    type(fuge_path), intent(inout) :: path
+    type(fuge_info), intent(inout) :: info
+    type(load_line) :: line
+
+    call check_finish(with_springs, extended, finish, info)
+    if (info%failed()) return
+    line%start = start_values(problem)
+    line%rate = finish - line%start
+    line%last = 1.0_dp
+    line%origin = 1.0_dp + min(size_ratio(line%start, line%rate), LARGEST_ORIGIN)
+    if (extended%points() > problem%points()) then
+      line%given = problem
+      line%extended = extended
+    end if
+    call follow(operator, problem, with_springs, extended, line, path, info)
+  end subroutine follow_to_finish
+
+  !> Refuse an operator that is not set, and a problem that does not fit it.
   subroutine check_start(operator, problem, info)
     class(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -106,10 +147,6 @@ contains
       call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before')
     else
       call check_problem(problem, operator%points(), info)
-      if (problem%has_law() .and. .not. info%failed()) then
-        call report(info, FUGE_ERR_UNSUPPORTED, 'a load path knows no compliance, limits or springs on motions: ' &
-                    //'solve for one load after the other')
-      end if
     end if
   end subroutine check_start
 
@@ -170,10 +207,12 @@ contains
     end if
   end function size_ratio
 
-  !> Follow a checked problem along a line whose start, rate and end are set; the rest of `line` is set here.
-  subroutine follow(operator, problem, line, path, info)
-    type(fuge_dense_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
+  !> Follow a checked problem along a line whose start, rate and end are set; the rest of `line` is set here. `operator`
+  !> and `problem` of the caller, with which the path is certified, `with_springs` and `extended` as for
+  !> `follow_to_finish`.
+  subroutine follow(operator, problem, with_springs, extended, line, path, info)
+    type(fuge_dense_operator), intent(in) :: operator, with_springs
+    type(fuge_problem), intent(in) :: problem, extended
     type(load_line), intent(inout) :: line
     type(fuge_path), intent(inout) :: path
     type(fuge_info), intent(inout) :: info
@@ -184,10 +223,11 @@ contains
     real(dp), allocatable :: no_change(:)
     integer :: stat, status
 
-    call make_canonical(problem, canonical, info)
+    call make_canonical(extended, canonical, info)
     if (info%failed()) return
-    call canonical%set_matrix(operator%alpha, operator%datum(), operator%known())
-    allocate (no_change(problem%points()), stat=stat)
+    call canonical%set_matrix(with_springs%alpha, with_springs%datum(), with_springs%known())
+    line%points = problem%points()
+    allocate (no_change(extended%points()), stat=stat)
     call require_memory(stat, 'changes of', problem%points(), 'gaps', info)
     if (stat /= 0) return
     no_change = 0.0_dp
@@ -199,7 +239,7 @@ contains
     if (info%failed()) return
     call certificate%start(operator, problem, line%start, line%rate, line%origin)
     call follow_line(canonical, line, position, followed, certificate, status)
-    if (status == FUGE_DONE) call certificate%finish(position%force, line%last, followed)
+    if (status == FUGE_DONE) call certificate%finish(position%force(:line%points), line%last, followed)
     if (status == FUGE_DONE) call trim_path(followed, status)
     call explain_end(status, followed%entries, position%parameter, info)
     if (.not. info%failed()) call report_certificate(certificate, info)

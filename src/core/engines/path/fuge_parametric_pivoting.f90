@@ -1,13 +1,14 @@
 !> Parametric pivoting: the course of a contact along a straight line of problems, without load steps.
 !>
 !> Gaps and resultants change linearly with a parameter. Between two events forces, gaps and motions are linear in it
-!> too. An event is a parameter at which points come to a stop or leave it. Which points change when several could,
-!> and how the next piece runs, follows from a small contact problem in the rates of the weakly active points. Where
-!> no such rates exist, the motions that nothing resists jump.
+!> too. An event is a parameter at which points come to a corner of their law: to a stop, to no force or to a limit.
+!> Which points change when several could, and how the next piece runs, follows from a small contact problem in the
+!> rates of the weakly active points. Where no such rates exist, the motions that nothing resists jump.
 module fuge_parametric_pivoting
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
+  use fuge_contact_states, only: is_at_stop, FUGE_OPEN
   use fuge_kinds, only: dp
+  use fuge_law_corners, only: corner_sense, corners_of_state, distance_to_corner, law_corner, MOST_CORNERS
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_path_certificate, only: path_certificate
   use fuge_path_factor, only: path_factor
@@ -43,17 +44,16 @@ contains
     integer :: turn
     logical :: ended
 
-    call start_path(position%state, size(line%start), path, status)
+    call start_path(position%state(:line%points), size(line%start), path, status)
     if (status /= FUGE_DONE) return
     do turn = 1, ITERATIONS_PER_ROW*(size(before) + 1)
       before = position%state
       call move_until_resisted(canonical, line%load_rate, position, status)
       if (status == FUGE_DONE) call find_rates(canonical, line, factor, position, status)
       if (status /= FUGE_DONE) return
-      where (position%state == FUGE_OPEN) position%force = 0.0_dp
-      where (position%state /= FUGE_OPEN) position%gap = merge(0.0_dp, canonical%upper, position%state > FUGE_OPEN)
+      call position%keep_to_law(canonical)
       if (is_renewal_due(canonical, factor, position, turn)) then
-        if (turn > 1) call certificate%add_end(position%parameter, position%force, path)
+        if (turn > 1) call certificate%add_end(position%parameter, position%force(:line%points), path)
         call renew_values(canonical, line, factor, position)
       end if
       if (turn == 1) call append_position(canonical, line, position, 0, path, status)
@@ -62,7 +62,7 @@ contains
         call append_turn(canonical, line, position, path, status)
       end if
       if (status /= FUGE_DONE) return
-      call certificate%add(position%parameter, position%force, path)
+      call certificate%add(position%parameter, position%force(:line%points), path)
       call go_to_next_event(canonical, line, factor, position, ended)
       if (ended) return
     end do
@@ -90,11 +90,12 @@ contains
     type(path_factor), intent(in) :: factor
     type(path_position), intent(inout) :: position
     logical, intent(out) :: ended
-    integer :: joining(size(position%state)), k
+    type(law_corner) :: reached(size(position%state))
+    integer :: k
     real(dp) :: step, left
 
     left = line%last - position%parameter
-    call find_next_event(canonical, position, left, step, joining)
+    call find_next_event(canonical, position, left, step, reached)
     ended = .not. position%parameter + step < line%last - ROUNDING*(line%last + line%origin)
     position%parameter = merge(line%last, position%parameter + step, ended)
     if (ended) step = left
@@ -105,55 +106,57 @@ contains
     if (ended) return
     call position%mark_weakly_active(canonical, line, step)
     ! Those of the event itself, in spite of any rounding.
-    do k = 1, size(joining)
-      if (joining(k) /= FUGE_OPEN) position%weakly_active(k) = joining(k)
+    do k = 1, size(reached)
+      if (reached(k)%stop_state /= FUGE_OPEN) call position%set_corner(k, reached(k))
     end do
   end subroutine go_to_next_event
 
-  !> How far the next event is, at most `left`, and the points that reach zero there: `stops` (n) has the stop at which
-  !> they then are without force, and FUGE_OPEN for the other points. Weakly active points move away from zero.
-  pure subroutine find_next_event(canonical, position, left, step, stops)
+  !> How far the next event is, at most `left`, and the points that come to a corner there: `reached` (n), no corner for
+  !> the other points. Weakly active points move away from their corner.
+  pure subroutine find_next_event(canonical, position, left, step, reached)
     type(canonical_problem), intent(in) :: canonical
     type(path_position), intent(in) :: position
     real(dp), intent(in) :: left
     real(dp), intent(out) :: step
-    integer, intent(out) :: stops(:)
-    real(dp) :: reach(size(stops))
-    integer :: k
+    type(law_corner), intent(out) :: reached(:)
+    type(law_corner) :: corners(MOST_CORNERS)
+    real(dp) :: reach(size(reached)), value, rate
+    integer :: i, k, number
 
     reach = left
-    stops = FUGE_OPEN
-    do k = 1, size(stops)
-      if (canonical%excluded(k) .or. .not. canonical%upper(k) > 0.0_dp) cycle
-      associate (state => position%state(k), weak => position%weakly_active(k), gap => position%gap(k), &
-                 gap_rate => position%gap_rate(k), upper => canonical%upper(k))
-        if (state /= FUGE_OPEN) then
-          if (weak == FUGE_OPEN) call approach_zero(state*position%force(k), state*position%force_rate(k), state, &
-                                                    reach(k), stops(k))
-        else if (gap_rate < 0.0_dp) then
-          if (weak /= FUGE_AT_LOWER_STOP) call approach_zero(gap, gap_rate, FUGE_AT_LOWER_STOP, reach(k), stops(k))
-        else if (upper < huge(upper)) then
-          if (weak /= FUGE_AT_UPPER_STOP) call approach_zero(upper - gap, -gap_rate, FUGE_AT_UPPER_STOP, reach(k), &
-                                                             stops(k))
-        end if
-      end associate
+    do k = 1, size(reached)
+      call corners_of_state(canonical, k, position%state(k), corners, number)
+      value = merge(position%force(k), position%gap(k), is_at_stop(position%state(k)))
+      rate = merge(position%force_rate(k), position%gap_rate(k), is_at_stop(position%state(k)))
+      do i = 1, number
+        if (is_same(corners(i), position%corner(k))) cycle
+        call approach(distance_to_corner(canonical, k, corners(i), position%state(k), value), &
+                      corner_sense(corners(i))*rate, corners(i), reach(k), reached(k))
+      end do
     end do
     step = minval(reach)
-    where (reach > step) stops = FUGE_OPEN
+    where (reach > step) reached = law_corner()
   end subroutine find_next_event
 
-  !> Where a value >= 0 reaches zero before `reach`, lower that, and note the stop.
-  pure subroutine approach_zero(value, rate, stop_state, reach, noted)
-    real(dp), intent(in) :: value, rate
-    integer, intent(in) :: stop_state
+  elemental function is_same(corner, other)
+    type(law_corner), intent(in) :: corner, other
+    logical :: is_same
+
+    is_same = corner%stop_state == other%stop_state .and. corner%free_state == other%free_state
+  end function is_same
+
+  !> Where a distance >= 0 from a corner falls to zero before `reach`, lower that, and note the corner.
+  pure subroutine approach(distance, rate, corner, reach, noted)
+    real(dp), intent(in) :: distance, rate
+    type(law_corner), intent(in) :: corner
     real(dp), intent(inout) :: reach
-    integer, intent(inout) :: noted
+    type(law_corner), intent(inout) :: noted
 
     ! Not by a quotient that may overflow.
-    if (.not. max(value, 0.0_dp) < -rate*reach) return
-    reach = max(value, 0.0_dp)/abs(rate)
-    noted = stop_state
-  end subroutine approach_zero
+    if (.not. max(distance, 0.0_dp) < -rate*reach) return
+    reach = max(distance, 0.0_dp)/abs(rate)
+    noted = corner
+  end subroutine approach
 
   !> Append an entry for each point whose state has changed.
   subroutine append_changes(canonical, line, position, before, path, status)
@@ -201,7 +204,7 @@ contains
     real(dp) :: motion(size(line%start)), rate(size(line%start))
 
     call given_motions(canonical, line, position, motion, rate)
-    call append_entry(path, position%parameter, point, position%state, motion, rate, status)
+    call append_entry(path, position%parameter, point, position%state(:line%points), motion, rate, status)
   end subroutine append_position
 
 end module fuge_parametric_pivoting

@@ -7,12 +7,12 @@
 !> data. The forces at the ends of several pieces are multiplied with the matrix at once.
 module fuge_path_certificate
   use fuge_certificate, only: find_violation, fuge_violation
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemm
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
+  use fuge_path_claims, only: find_gaps, force_beside_state, rounded_sum, set_loads
   use fuge_path_type, only: fuge_path
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_MEMORY
@@ -193,18 +193,17 @@ contains
     real(dp), intent(in) :: fraction, displacement(:, :)
     type(fuge_solution) :: solution
     type(fuge_violation) :: violation
-    real(dp) :: here(size(self%first)), parameter, worst
+    real(dp) :: parameter, worst
     integer :: entry
 
     if (self%info%failed()) return
     entry = self%entry(k)
     parameter = (1.0_dp - fraction)*self%parameter(k) + fraction*self%parameter(k + 1)
     self%product%displacement = (1.0_dp - fraction)*displacement(:, 1) + fraction*displacement(:, 2)
-    here = self%first + parameter*self%rate
-    if (allocated(self%problem%resultant)) self%problem%resultant = here
-    if (allocated(self%problem%prescribed)) where (self%problem%prescribed) self%problem%motion = here
-    allocate (solution%force, source=(1.0_dp - fraction)*self%force(:, k) + fraction*self%force(:, k + 1))
-    allocate (solution%motion, source=path%motion(:, entry) + (parameter - path%parameter(entry))*path%rate(:, entry))
+    allocate (solution%force, source=forces_at(self, k, fraction))
+    allocate (solution%motion, source=rounded_sum(path%motion(:, entry), &
+                                                  (parameter - path%parameter(entry))*path%rate(:, entry)))
+    call set_loads(self%first, self%rate, parameter, self%origin, self%problem, solution)
     allocate (solution%gap(size(solution%force)))
     call find_gaps(self%problem, self%product%matrix%datum(), path%states(entry), self%product%displacement, solution)
     self%product%adds_terms = .false.
@@ -214,22 +213,27 @@ contains
       call find_violation(self%product, self%problem, solution, violation, self%info)
     end if
     if (self%info%failed()) return
-    worst = max(violation%worst(), force_at_open_points(path%states(entry), solution%force))
+    worst = max(violation%worst(), force_beside_state(self%problem, path%states(entry), solution%force))
     if (worst <= self%residual) return
     self%residual = worst
     self%worst_parameter = path%parameter(entry)
   end subroutine check_at
 
-  !> The largest force that the entries of the path deny, as a fraction of the largest force.
-  pure function force_at_open_points(state, force) result(fraction)
-    integer, intent(in) :: state(:)
-    real(dp), intent(in) :: force(:)
-    real(dp) :: fraction, largest
+  !> The forces (n) at the `fraction` of a piece. What an end would lose if its parameter were another one by rounding is
+  !> no force.
+  pure function forces_at(self, k, fraction) result(force)
+    type(path_certificate), intent(in) :: self
+    integer, intent(in) :: k
+    real(dp), intent(in) :: fraction
+    real(dp) :: force(size(self%force, 1))
+    real(dp), parameter :: LAST_DIGITS = 8.0_dp*epsilon(1.0_dp)
 
-    fraction = 0.0_dp
-    largest = maxval(abs(force))
-    if (largest > 0.0_dp) fraction = maxval(merge(abs(force)/largest, 0.0_dp, state == FUGE_OPEN))
-  end function force_at_open_points
+    associate (first => self%parameter(k), last => self%parameter(k + 1), at_first => self%force(:, k), &
+               at_last => self%force(:, k + 1))
+      force = (1.0_dp - fraction)*at_first + fraction*at_last
+      where (abs(force)*(last - first) <= LAST_DIGITS*(last + self%origin)*abs(at_last - at_first)) force = 0.0_dp
+    end associate
+  end function forces_at
 
   pure function warns_above() result(tolerance)
     real(dp) :: tolerance
@@ -237,37 +241,6 @@ contains
 
     tolerance = defaults%tolerance
   end function warns_above
-
-  !> Gaps are zero at the lower stop and the play at the upper one, and follow from forces and motions elsewhere. One
-  !> beyond a stop counts as an error of the gap equation, for which the rounding of the data is allowed.
-  pure subroutine find_gaps(problem, datum, state, displacement, solution)
-    type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: datum, displacement(:)
-    integer, intent(in) :: state(:)
-    type(fuge_solution), intent(inout) :: solution
-    real(dp) :: rigid(size(state))
-    integer :: j, k
-
-    rigid = -datum*sum(solution%force)
-    do j = 1, size(solution%motion)
-      if (allocated(problem%modes)) then
-        rigid = rigid + problem%modes(:, j)*solution%motion(j)
-      else
-        rigid = rigid + solution%motion(j)
-      end if
-    end do
-    solution%gap = (problem%gap - rigid) + displacement
-    do k = 1, size(state)
-      if (allocated(problem%excluded)) then
-        if (problem%excluded(k)) cycle
-      end if
-      solution%gap(k) = max(solution%gap(k), 0.0_dp)
-      if (state(k) == FUGE_AT_LOWER_STOP) solution%gap(k) = 0.0_dp
-      if (.not. allocated(problem%gap_upper)) cycle
-      solution%gap(k) = min(solution%gap(k), problem%gap_upper(k))
-      if (state(k) == FUGE_AT_UPPER_STOP) solution%gap(k) = problem%gap_upper(k)
-    end do
-  end subroutine find_gaps
 
   !> (A - datum) F, for all columns of `force` (n, any number) at once.
   subroutine multiply_at_once(operator, force, displacement)

@@ -1,23 +1,23 @@
 !> The rates of a contact at a position on a line of loads, and its values solved for anew.
 !>
-!> Points with force stay at their stop, open ones stay open. Which of the weakly active points are in contact on the
-!> next piece is a contact problem in the rates. It is solved by block pivoting on them; if that stalls, the
-!> active-set engine solves it, which ends.
+!> Points within a step of their law stay on it: at a stop, open, or at a limit. On which side of their corner the
+!> weakly active points are on the next piece is a contact problem in the rates. It is solved by block pivoting on
+!> them; if that stalls, the active-set engine solves it, which ends.
 module fuge_path_rates
   use fuge_block_pivoting, only: run_block_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
-  use fuge_displacements, only: rigid_displacement
+  use fuge_contact_states, only: is_at_stop, FUGE_AT_LOWER_STOP, FUGE_OPEN
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp, xp
   use fuge_kkt_factor, only: kkt_factor
+  use fuge_law_corners, only: corner_sense, law_corner
   use fuge_monitor_type, only: monitor_relay
   use fuge_options_type, only: ITERATIONS_PER_ROW
+  use fuge_path_equations, only: correct, open_gaps
   use fuge_path_factor, only: path_factor
   use fuge_path_position, only: gaps_to_close, largest_force_of_body, largest_forces, load_at, load_line, &
     path_position, ROUNDING, ROUNDING_OF_SUMS
-  use fuge_row_displacements, only: add_displacement, extended_gaps
   use fuge_stall_counter, only: stall_counter
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
   use fuge_unresisted_motions, only: find_unresisted_basis, is_resisted, without_unresisted
@@ -26,10 +26,6 @@ module fuge_path_rates
 
   public :: find_rates, renew_values
 
-  !> A correction above this fraction of the largest force calls for another one.
-  real(dp), parameter :: EXACT_ENOUGH = 1.0e-13_dp
-  !> Values are corrected at most this many times.
-  integer, parameter :: REFINEMENTS = 10
   !> Block exchanges in a row without a new minimum of wrong points, before the active-set engine takes over.
   integer, parameter :: MAX_STALLS = 3
 
@@ -59,27 +55,37 @@ contains
         if (status /= FUGE_DONE) return
         exit
       end if
-      where (wrong) position%state = merge(FUGE_OPEN, position%weakly_active, position%state /= FUGE_OPEN)
+      where (wrong) position%state = other_side(position%corner, position%state)
     end do
     call open_gaps(canonical, line%flexibility, factor, position%state, line%reduced_gap_rate, position%force_rate, &
                    position%motion_rate, position%gap_rate)
-    where (position%state /= FUGE_OPEN .or. canonical%excluded) position%gap_rate = 0.0_dp
+    where (is_at_stop(position%state) .or. canonical%excluded) position%gap_rate = 0.0_dp
     position%has_rates = .true.
     position%rounding = merge(ROUNDING, ROUNDING_OF_SUMS, factor%needs_refinement(canonical))
   end subroutine find_rates
 
-  !> A first guess: weakly active points go on as they came. Without rates yet all of them are in contact.
+  !> The state on the other side of a corner.
+  elemental function other_side(corner, state) result(other)
+    type(law_corner), intent(in) :: corner
+    integer, intent(in) :: state
+    integer :: other
+
+    other = merge(corner%free_state, corner%stop_state, is_at_stop(state))
+  end function other_side
+
+  !> A first guess: weakly active points go on as they came. Without rates yet all of them are at their stops.
   pure subroutine follow_last_rates(position)
     type(path_position), intent(inout) :: position
     integer :: k
 
     do k = 1, size(position%state)
-      associate (state => position%state(k), stop_state => position%weakly_active(k))
-        if (stop_state == FUGE_OPEN) cycle
-        if (state == FUGE_OPEN) then
-          if (.not. position%has_rates .or. stop_state*position%gap_rate(k) < 0.0_dp) state = stop_state
+      associate (state => position%state(k), corner => position%corner(k))
+        if (position%weakly_active(k) == FUGE_OPEN) cycle
+        if (is_at_stop(state)) then
+          if (position%has_rates .and. corner_sense(corner)*position%force_rate(k) < 0.0_dp) state = corner%free_state
         else
-          if (position%has_rates .and. stop_state*position%force_rate(k) < 0.0_dp) state = FUGE_OPEN
+          if (position%has_rates .and. corner_sense(corner)*position%gap_rate(k) >= 0.0_dp) cycle
+          state = corner%stop_state
         end if
       end associate
     end do
@@ -95,7 +101,7 @@ contains
     integer, intent(out) :: status
     logical :: contact(size(position%state))
 
-    contact = position%state /= FUGE_OPEN
+    contact = is_at_stop(position%state)
     call factor%set(canonical, contact, status)
     if (status /= FUGE_DONE) return
     call factor%solve(canonical, line%reduced_gap_rate, line%load_rate, position%force_rate, position%motion_rate)
@@ -109,21 +115,22 @@ contains
       position%motion_rate = without_unresisted(position%motion_rate, position%unresisted)
     end if
     if (factor%needs_refinement(canonical)) then
-      call correct(canonical, line%flexibility, factor, line%reduced_gap_rate, line%load_rate, contact, &
+      call correct(canonical, line%flexibility, factor, line%reduced_gap_rate, line%load_rate, position%state, &
                    position%unresisted, position%force_rate, position%motion_rate)
     end if
-    call clear_small_forces(line, line%reduced_gap_rate, line%load_rate, position%force_rate)
+    call clear_small_forces(line, line%reduced_gap_rate, line%load_rate, contact, position%force_rate)
   end subroutine solve_for_rates
 
-  !> Without a load all forces may be rounding: those that displace no point by more than the rounding of the gaps
-  !> become zero.
-  pure subroutine clear_small_forces(line, gap, load, force)
+  !> Without a load all forces may be rounding: those at stops, `contact` (n), that displace no point by more than the
+  !> rounding of the gaps become zero.
+  pure subroutine clear_small_forces(line, gap, load, contact, force)
     type(load_line), intent(in) :: line
     real(dp), intent(in) :: gap(:), load(:)
+    logical, intent(in) :: contact(:)
     real(dp), intent(inout) :: force(:)
 
     if (any(abs(load) > 0.0_dp)) return
-    where (abs(force)*line%flexibility <= ROUNDING*maxval(abs(gap))) force = 0.0_dp
+    where (contact .and. abs(force)*line%flexibility <= ROUNDING*maxval(abs(gap))) force = 0.0_dp
   end subroutine clear_small_forces
 
   !> Solve anew for the forces and motions of the set of the factor at the position, except for motions that nothing
@@ -137,87 +144,16 @@ contains
 
     gap = gaps_to_close(canonical, line, position)
     call correct(canonical, line%flexibility, factor, gap, load_at(canonical, line, position%parameter), &
-                 position%state /= FUGE_OPEN, position%unresisted, position%force, position%motion)
+                 position%state, position%unresisted, position%force, position%motion)
     call clear_small_forces(line, canonical%gap + position%parameter*line%reduced_gap_rate, &
-                            load_at(canonical, line, position%parameter), position%force)
+                            load_at(canonical, line, position%parameter), is_at_stop(position%state), &
+                            position%force)
     call open_gaps(canonical, line%flexibility, factor, position%state, gap, position%force, position%motion, &
                    position%gap)
-    where (position%state /= FUGE_OPEN) position%gap = merge(0.0_dp, canonical%upper, position%state > FUGE_OPEN)
+    call position%keep_to_law(canonical)
   end subroutine renew_values
 
-  !> Gaps of the open points, `open_gap` (n), from `gap` without displacements, or rates of these;
-  !> `flexibility` is that of the line.
-  subroutine open_gaps(canonical, flexibility, factor, state, gap, force, motion, open_gap)
-    type(canonical_problem), intent(in) :: canonical
-    type(path_factor), intent(in) :: factor
-    integer, intent(in) :: state(:)
-    real(dp), intent(in) :: flexibility, gap(:), force(:), motion(:)
-    real(dp), intent(inout) :: open_gap(:)
-
-    if (factor%is_well_conditioned()) then
-      open_gap = gap - rigid_displacement(canonical%modes, motion)
-      call add_displacement(canonical, flexibility, state == FUGE_OPEN, state /= FUGE_OPEN, force, open_gap)
-    else
-      open_gap = extended_gaps(canonical, state, gap, force, motion)
-    end if
-  end subroutine open_gaps
-
-  !> Iterative refinement, with residuals in extended precision unless the factor is well conditioned: c = gap + A f -
-  !> R q = 0 on the contact set, R^T f = load. Motions along the columns of `unresisted` stay. Nine arguments, because
-  !> values and rates have the same equations.
-  subroutine correct(canonical, flexibility, factor, gap, load, contact, unresisted, force, motion)
-    type(canonical_problem), intent(in) :: canonical
-    type(path_factor), intent(in) :: factor
-    real(dp), intent(in) :: flexibility, gap(:), load(:), unresisted(:, :)
-    logical, intent(in) :: contact(:)
-    real(dp), intent(inout) :: force(:), motion(:)
-    real(dp) :: residual(size(gap)), correction(size(gap)), missing(size(motion)), shift(size(motion)), change, last
-    integer :: points(count(contact)), k, step
-
-    points = pack([(k, k=1, size(contact))], contact)
-    residual = 0.0_dp
-    last = huge(last)
-    do step = 1, REFINEMENTS
-      if (factor%is_well_conditioned()) then
-        residual = gap - rigid_displacement(canonical%modes, motion)
-        call add_displacement(canonical, flexibility, contact, contact, force, residual)
-        missing = load - matmul(force, canonical%modes)
-      else
-        call extended_residual(canonical, gap, load, points, force, motion, residual, missing)
-      end if
-      call factor%solve(canonical, residual, missing, correction, shift)
-      change = maxval(abs(correction))
-      if (.not. change < 0.5_dp*last) exit
-      force = force + correction
-      motion = motion + without_unresisted(shift, unresisted)
-      if (factor%is_well_conditioned() .or. change <= EXACT_ENOUGH*maxval(abs(force))) exit
-      last = change
-    end do
-  end subroutine correct
-
-  !> Residuals of the gaps (n), at the contact points, and of equilibrium (m), in extended precision.
-  pure subroutine extended_residual(canonical, gap, load, points, force, motion, residual, missing)
-    type(canonical_problem), intent(in) :: canonical
-    real(dp), intent(in) :: gap(:), load(:), force(:), motion(:)
-    integer, intent(in) :: points(:)
-    real(dp), intent(inout) :: residual(:)
-    real(dp), intent(out) :: missing(:)
-    real(xp) :: sums(size(points))
-    integer :: j
-
-    sums = real(gap(points), xp)
-    do j = 1, size(motion)
-      sums = sums - real(canonical%modes(points, j), xp)*real(motion(j), xp)
-      missing(j) = real(real(load(j), xp) - sum(real(canonical%modes(points, j), xp)*real(force(points), xp)), dp)
-    end do
-    do j = 1, size(points)
-      sums = sums + (real(canonical%alpha(points, points(j)), xp) - real(canonical%datum, xp)) &
-             *real(force(points(j)), xp)
-    end do
-    residual(points) = real(sums, dp)
-  end subroutine extended_residual
-
-  !> Weakly active points whose force would pull, or whose gap would close beyond the stop.
+  !> Weakly active points whose force or gap would change in the wrong sense.
   pure subroutine find_wrong(canonical, line, position, wrong)
     type(canonical_problem), intent(in) :: canonical
     type(load_line), intent(in) :: line
@@ -228,17 +164,17 @@ contains
 
     wrong = .false.
     largest = 0.0_dp
-    if (any(position%weakly_active /= FUGE_OPEN .and. position%state /= FUGE_OPEN)) then
+    if (any(position%weakly_active /= FUGE_OPEN .and. is_at_stop(position%state))) then
       largest = largest_forces(canonical, position%force_rate)
     end if
     do k = 1, size(wrong)
       if (position%weakly_active(k) == FUGE_OPEN) cycle
-      if (position%state(k) /= FUGE_OPEN) then
-        wrong(k) = position%weakly_active(k)*position%force_rate(k) &
+      if (is_at_stop(position%state(k))) then
+        wrong(k) = corner_sense(position%corner(k))*position%force_rate(k) &
                    < -ROUNDING*largest_force_of_body(canonical, largest, k)
       else
         call gap_rate_at(canonical, line, position, k, rate, magnitude)
-        wrong(k) = position%weakly_active(k)*rate < -ROUNDING*magnitude
+        wrong(k) = corner_sense(position%corner(k))*rate < -ROUNDING*magnitude
       end if
     end do
   end subroutine find_wrong
@@ -261,7 +197,7 @@ contains
       magnitude = magnitude + real(abs(term), dp)
     end do
     do j = 1, size(position%state)
-      if (position%state(j) == FUGE_OPEN) cycle
+      if (.not. is_at_stop(position%state(j))) cycle
       term = (real(canonical%alpha(point, j), xp) - real(canonical%datum, xp))*real(position%force_rate(j), xp)
       total = total + term
       magnitude = magnitude + real(abs(term), dp)
@@ -269,7 +205,7 @@ contains
     rate = real(total, dp)
   end subroutine gap_rate_at
 
-  !> The contact problem in the rates, by the active-set engine: points with force are tied, weakly active ones
+  !> The contact problem in the rates, by the active-set engine: points within their stop are tied, weakly active ones
   !> one-sided, all others excluded.
   subroutine solve_rate_problem(canonical, line, factor, position, status)
     type(canonical_problem), intent(in) :: canonical
@@ -291,15 +227,16 @@ contains
     allocate (solution%force(n), solution%gap(n), solution%motion(size(position%motion)), solution%state(n), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0) return
-    ! A point that may leave its upper stop becomes one at the lower stop in a mirror.
-    sense = merge(-1.0_dp, 1.0_dp, position%weakly_active == FUGE_AT_UPPER_STOP)
+    ! A point whose force may only fall becomes one at the lower stop in a mirror.
+    sense = merge(-1.0_dp, 1.0_dp, position%sense() < 0)
+    if (rates%has_limits()) deallocate (rates%limit, rates%limit_upper)
     rates%plain = .false.
     rates%gap = sense*line%reduced_gap_rate
     rates%load = line%load_rate
-    pulls = position%state /= FUGE_OPEN .and. position%weakly_active == FUGE_OPEN
+    pulls = is_at_stop(position%state) .and. position%weakly_active == FUGE_OPEN
     rates%upper = merge(0.0_dp, huge(1.0_dp), pulls)
-    rates%excluded = position%state == FUGE_OPEN .and. position%weakly_active == FUGE_OPEN
-    solution%state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, position%state /= FUGE_OPEN)
+    rates%excluded = .not. is_at_stop(position%state) .and. position%weakly_active == FUGE_OPEN
+    solution%state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, is_at_stop(position%state))
     if (any(sense < 0.0_dp)) then
       call mirror(canonical, sense, mirrored_alpha, rates, status)
       if (status /= FUGE_DONE) return
@@ -311,7 +248,9 @@ contains
     end if
     call run_block_pivoting(rates, ITERATIONS_PER_ROW*(n + 1), no_monitor, own_factor, solution, sets, status)
     if (status /= FUGE_DONE) return
-    where (position%weakly_active /= FUGE_OPEN) position%state = position%weakly_active*abs(solution%state)
+    where (position%weakly_active /= FUGE_OPEN)
+      position%state = merge(position%corner%free_state, position%corner%stop_state, solution%state == FUGE_OPEN)
+    end where
     call solve_for_rates(canonical, line, factor, position, status)
     if (status /= FUGE_DONE) return
     call find_wrong(canonical, line, position, wrong)

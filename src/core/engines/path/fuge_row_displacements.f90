@@ -1,8 +1,8 @@
-!> Elastic displacements of some of the points: of the open ones, which is all that a path needs between two events, or
-!> of those in contact.
+!> Elastic displacements of some of the points: of those that are not at a stop, which is all that a path needs between
+!> two events, or of those at a stop.
 module fuge_row_displacements
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_contact_states, only: is_at_stop, FUGE_OPEN
   use fuge_kinds, only: dp, xp
   use fuge_lapack, only: dgemv
   use fuge_marked_runs, only: next_run
@@ -61,8 +61,8 @@ contains
     u(top:bottom) = u(top:bottom) - datum*sum(force(first:last))
   end subroutine add_block
 
-  !> Gaps of the open points, c = gap + (alpha - datum) f - R q, in extended precision; zero at the others. All (n) but
-  !> `motion` (m).
+  !> Gaps of the points that are not at a stop, c = gap + (alpha - datum) f - R q, in extended precision; zero at the
+  !> others. All (n) but `motion` (m).
   !>
   !> Between two contact points of a beam a gap may be far smaller than the terms that it consists of.
   pure function extended_gaps(canonical, state, gap, force, motion) result(open_gap)
@@ -70,10 +70,10 @@ contains
     integer, intent(in) :: state(:)
     real(dp), intent(in) :: gap(:), force(:), motion(:)
     real(dp) :: open_gap(size(state))
-    real(xp) :: sums(count(state == FUGE_OPEN))
+    real(xp) :: sums(count(.not. is_at_stop(state)))
     integer :: points(size(sums)), j, k
 
-    points = pack([(k, k=1, size(state))], state == FUGE_OPEN)
+    points = pack([(k, k=1, size(state))], .not. is_at_stop(state))
     sums = real(gap(points), xp)
     do j = 1, size(motion)
       sums = sums - real(canonical%modes(points, j), xp)*real(motion(j), xp)

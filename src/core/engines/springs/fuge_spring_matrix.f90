@@ -208,10 +208,11 @@ contains
   end subroutine append
 
   !> The motions on springs from the forces of these, where that has less rounding: of the largest force, instead of the
-  !> largest displacement by any motion. `extended` is the problem whose `solution` this is.
-  pure subroutine find_spring_motions(problem, extended, solution)
+  !> largest displacement by any motion. `force` (n + springs) and `motion` (m) are those of the problem `extended`.
+  pure subroutine find_spring_motions(problem, extended, force, motion)
     type(fuge_problem), intent(in) :: problem, extended
-    type(fuge_solution), intent(inout) :: solution
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(inout) :: motion(:)
     logical :: on_spring(problem%mode_count())
     real(dp) :: displacement(extended%points()), arm(spring_count(problem)), flexibility
     integer :: j, spring
@@ -221,15 +222,15 @@ contains
     arm = spring_arms(problem)
     displacement = 0.0_dp
     do j = 1, size(on_spring)
-      displacement = max(displacement, abs(extended%modes(:, j)*solution%motion(j)))
+      displacement = max(displacement, abs(extended%modes(:, j)*motion(j)))
     end do
     spring = 0
     do j = 1, size(on_spring)
       if (.not. on_spring(j)) cycle
       spring = spring + 1
       flexibility = arm(spring)/problem%motion_stiffness(j)
-      if (maxval(displacement) > arm(spring)*flexibility*maxval(abs(solution%force))) then
-        solution%motion(j) = solution%force(problem%points() + spring)*flexibility
+      if (maxval(displacement) > arm(spring)*flexibility*maxval(abs(force))) then
+        motion(j) = force(problem%points() + spring)*flexibility
       end if
     end do
   end subroutine find_spring_motions

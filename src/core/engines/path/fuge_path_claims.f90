@@ -1,0 +1,140 @@
+!> What the entries of a path say about forces and gaps by the states of the points, for the certificate of the path.
+module fuge_path_claims
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, &
+    FUGE_OPEN
+  use fuge_kinds, only: dp
+  use fuge_point_law, only: point_law
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  implicit none
+  private
+
+  public :: find_gaps, force_beside_state, rounded_sum, set_loads
+
+  !> Loads and motions at a place of the path are as exact as the terms that they are made of, times this.
+  real(dp), parameter :: ROUNDING = 16.0_dp*epsilon(1.0_dp)
+
+contains
+
+  !> The sum of two terms; zero if no more than their rounding is left.
+  elemental function rounded_sum(value, change) result(total)
+    real(dp), intent(in) :: value, change
+    real(dp) :: total
+
+    total = value + change
+    if (abs(total) <= ROUNDING*(abs(value) + abs(change))) total = 0.0_dp
+  end function rounded_sum
+
+  !> Set resultants and prescribed motions to `first` + `parameter` `rate` (m). The parameter is as exact as parameter +
+  !> `origin`: within that rounding resultants are those of the forces, and motions as prescribed.
+  pure subroutine set_loads(first, rate, parameter, origin, problem, solution)
+    real(dp), intent(in) :: first(:), rate(:), parameter, origin
+    type(fuge_problem), intent(inout) :: problem
+    type(fuge_solution), intent(inout) :: solution
+    real(dp) :: carried, load, noise, spring(size(first))
+    integer :: j
+
+    spring = problem%spring_loads(solution%motion)
+    do j = 1, size(first)
+      load = first(j) + parameter*rate(j)
+      noise = ROUNDING*(abs(first(j)) + (parameter + origin)*abs(rate(j)))
+      if (is_prescribed(problem, j)) then
+        problem%motion(j) = load
+        if (abs(solution%motion(j) - load) <= noise) solution%motion(j) = load
+      else
+        carried = sum(solution%force) + spring(j)
+        if (allocated(problem%modes)) carried = sum(problem%modes(:, j)*solution%force) + spring(j)
+        problem%resultant(j) = merge(carried, load, abs(carried - load) <= noise)
+      end if
+    end do
+  end subroutine set_loads
+
+  pure function is_prescribed(problem, j)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: j
+    logical :: is_prescribed
+
+    is_prescribed = .false.
+    if (allocated(problem%prescribed)) is_prescribed = problem%prescribed(j)
+  end function is_prescribed
+
+  !> The largest difference from the force that a point has by its `state` (n), zero where open and the limit where it
+  !> gives way, as a fraction of the largest of the forces `force` (n).
+  pure function force_beside_state(problem, state, force) result(fraction)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: state(:)
+    real(dp), intent(in) :: force(:)
+    real(dp) :: fraction, largest
+    type(point_law) :: law
+    integer :: k
+
+    fraction = 0.0_dp
+    largest = maxval(abs(force))
+    if (.not. largest > 0.0_dp) return
+    do k = 1, size(force)
+      law = problem%law(k)
+      select case (state(k))
+      case (FUGE_OPEN)
+        fraction = max(fraction, abs(force(k))/largest)
+      case (FUGE_LIMITED_LOWER)
+        fraction = max(fraction, min(abs(force(k) - law%limit)/largest, huge(fraction)))
+      case (FUGE_LIMITED_UPPER)
+        fraction = max(fraction, min(abs(force(k) + law%limit_upper)/largest, huge(fraction)))
+      end select
+    end do
+  end function force_beside_state
+
+  !> Gaps are zero at the lower stop and the play at the upper one, and follow from forces and motions elsewhere. One on
+  !> the wrong side of a stop counts as an error of the gap equation, for which the rounding of the data is allowed.
+  !>
+  !> `displacement` (n) of the matrix without its `datum`, `state` (n); gaps of `solution` from its forces and motions.
+  pure subroutine find_gaps(problem, datum, state, displacement, solution)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: datum, displacement(:)
+    integer, intent(in) :: state(:)
+    type(fuge_solution), intent(inout) :: solution
+    real(dp) :: rigid(size(state))
+    integer :: j, k
+
+    rigid = -datum*sum(solution%force)
+    do j = 1, size(solution%motion)
+      if (allocated(problem%modes)) then
+        rigid = rigid + problem%modes(:, j)*solution%motion(j)
+      else
+        rigid = rigid + solution%motion(j)
+      end if
+    end do
+    solution%gap = (problem%gap - rigid) + displacement
+    if (allocated(problem%compliance)) solution%gap = solution%gap + problem%compliance*solution%force
+    do k = 1, size(state)
+      if (allocated(problem%excluded)) then
+        if (problem%excluded(k)) cycle
+      end if
+      solution%gap(k) = gap_in_state(problem%law(k), state(k), solution%gap(k))
+    end do
+  end subroutine find_gaps
+
+  !> The gap nearest to `gap` that a point may have in its state.
+  pure function gap_in_state(law, state, gap) result(nearest)
+    type(point_law), intent(in) :: law
+    integer, intent(in) :: state
+    real(dp), intent(in) :: gap
+    real(dp) :: nearest
+
+    select case (state)
+    case (FUGE_AT_LOWER_STOP)
+      nearest = 0.0_dp
+    case (FUGE_AT_UPPER_STOP)
+      nearest = law%play
+    case (FUGE_LIMITED_LOWER)
+      nearest = min(gap, 0.0_dp)
+    case (FUGE_LIMITED_UPPER)
+      nearest = max(gap, law%play)
+    case default
+      nearest = gap
+      ! A stop without force is none.
+      if (law%limit > 0.0_dp) nearest = max(nearest, 0.0_dp)
+      if (law%limit_upper > 0.0_dp) nearest = min(nearest, law%play)
+    end select
+  end function gap_in_state
+
+end module fuge_path_claims
