@@ -131,7 +131,9 @@ contains
     largest = real(maxval(abs(answer%force)), dp)
     if (largest > 0.0_dp) verdict%error = real(maxval(abs(solution%force - answer%force)), dp)/largest
     if (info%status == FUGE_WARN_ILL_CONDITIONED) return
-    if (verdict%error > SILENT) then
+    if (answer%negligible) then
+      continue
+    else if (verdict%error > SILENT) then
       call fail(verdict, 'silent', text(verdict%error)//', estimated as '//text(info%force_error))
     else if (verdict%error > OF_ESTIMATE*info%force_error + ROUNDING) then
       call fail(verdict, 'estimate', text(verdict%error)//', estimated as '//text(info%force_error))

@@ -17,8 +17,12 @@ module law_oracle
   !> Stands for infinity in limits and plays.
   real(qp), parameter :: NONE = 1.0e4000_qp
   !> Of an interior point: products of variables and their multipliers at the end, and most steps.
-  real(qp), parameter :: LEAST_PRODUCT = 1.0e-26_qp
+  real(qp), parameter :: LEAST_PRODUCT = 1.0e-33_qp
   integer, parameter :: MOST_STEPS = 80
+  !> Violations below this fraction of the largest force are rounding.
+  real(qp), parameter :: ROUNDING = 1.0e-24_qp
+  !> Forces of this size displace no more than rounding.
+  real(qp), parameter :: NEGLIGIBLE = 1.0e-12_qp
   !> Fraction of the way to the nearest bound.
   real(qp), parameter :: OF_THE_WAY = 0.995_qp
   !> Pivots below this fraction of the largest entry are rounding.
@@ -44,11 +48,13 @@ module law_oracle
   type, public :: law_answer
     !> Forces and gaps (n), motions (m).
     real(qp), allocatable :: force(:), gap(:), motion(:)
-    !> How far it is from an answer in the units of the program.
+    !> How far it is from an answer, relative to the largest force.
     real(qp) :: violation = NONE
     !> Are A + D definite, and so the forces unique? Do points between their limits resist all motions; do those at the
     !> corner of their law, together with them?
     logical :: definite = .false., resists = .false., may_resist = .false.
+    !> Do all forces together displace no more than rounding?
+    logical :: negligible = .false.
     type(box_program), private :: program
     !> At its lower bound -1, at the upper one 1, between 0.
     integer, allocatable, private :: at(:)
@@ -205,27 +211,15 @@ contains
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
     type(law_answer), intent(out) :: answer
-    real(qp), allocatable :: v(:), low(:), high(:), q(:), polished(:), motion(:)
-    real(qp) :: violation
+    real(qp), allocatable :: v(:), q(:)
 
     call set_program(alpha, problem, answer%program)
     answer%definite = is_definite(alpha, problem, answer%program)
     associate (program => answer%program)
-      call find_interior(program, v, low, high, q)
-      allocate (answer%at(program%variables()))
-      answer%at = 0
-      where (high > program%high - v) answer%at = 1
-      where (low > v - program%low) answer%at = -1
-      answer%violation = violation_of(program, v, q)
-      polished = v
-      motion = q
-      call polish(program, answer%at, polished, motion)
-      violation = violation_of(program, polished, motion)
-      if (violation <= answer%violation) then
-        answer%violation = violation
-        v = polished
-        q = motion
-      end if
+      call find_interior(program, v, q, answer%at)
+      call exchange(program, answer%at, v, q)
+      answer%violation = violation_of(program, v, q)/largest_of(v)
+      answer%negligible = .not. largest_of(v) > NEGLIGIBLE
       call count_resisting(program, v, q, answer)
     end associate
     call restore(alpha, problem, v, q, answer)
@@ -390,11 +384,12 @@ contains
     violation = maxval([0.0_qp, abs(v - min(max(v - gradient, program%low), program%high))]) + maxval([0.0_qp, abs(left)])
   end function violation_of
 
-  !> `v` between the bounds, the multipliers of the lower and upper ones, 0 where there is none, and the motions.
-  pure subroutine find_interior(program, v, low, high, q)
+  !> `v` between the bounds, the motions, and the bound at which each variable is, -1 or 1, or 0.
+  pure subroutine find_interior(program, v, q, at)
     type(box_program), intent(in) :: program
-    real(qp), allocatable, intent(out) :: v(:), low(:), high(:), q(:)
-    real(qp), dimension(program%variables()) :: below, above, step, low_step, high_step, rest
+    real(qp), allocatable, intent(out) :: v(:), q(:)
+    integer, allocatable, intent(out) :: at(:)
+    real(qp), dimension(program%variables()) :: below, above, low, high, step, low_step, high_step, rest
     real(qp) :: matrix(program%variables() + program%motions(), program%variables() + program%motions())
     real(qp) :: left(program%motions()), motion_step(program%motions()), product, target, way
     integer :: bounds, k, nv, order(size(matrix, 1))
@@ -410,9 +405,9 @@ contains
     bounds = count(low > 0.0_qp) + count(high > 0.0_qp)
     allocate (q(program%motions()))
     q = 0.0_qp
+    below = merge(v - program%low, 1.0_qp, program%low > -NONE)
+    above = merge(program%high - v, 1.0_qp, program%high < NONE)
     do k = 1, MOST_STEPS
-      below = merge(v - program%low, 1.0_qp, program%low > -NONE)
-      above = merge(program%high - v, 1.0_qp, program%high < NONE)
       rest = -(gradient_of(program, v, q) - low + high)
       left = program%resultant - program%stiffness*q - matmul(program%rows, v)
       product = (sum(low*below) + sum(high*above))/max(bounds, 1)
@@ -435,15 +430,19 @@ contains
       high_step = high_step - high + high/above*step
       way = OF_THE_WAY*longest_way(below, above, low, high, step, low_step, high_step)
       v = v + way*step
+      ! Not by a difference, which rounding could make zero.
+      where (program%low > -NONE) below = below + way*step
+      where (program%high < NONE) above = above - way*step
       low = low + way*low_step
       high = high + way*high_step
       q = q + way*motion_step
     end do
     ! Rounding may have brought a variable to its bound.
     v = min(max(v, program%low), program%high)
-    low = merge(low, -1.0_qp, program%low > -NONE)
-    high = merge(high, -1.0_qp, program%high < NONE)
-    if (nv < 1) call polish(program, [integer ::], v, q)
+    allocate (at(nv))
+    at = 0
+    where (program%high < NONE .and. high > above) at = 1
+    where (program%low > -NONE .and. low > below) at = -1
   end subroutine find_interior
 
   !> The matrix of a step, with these additions to the diagonal.
@@ -531,6 +530,49 @@ contains
     step = x(:size(step))
     motion_step = x(size(step) + 1:)
   end subroutine solve_step
+
+  !> The largest size of these values, unless it is negligible.
+  pure function largest_of(values) result(largest)
+    real(qp), intent(in) :: values(:)
+    real(qp) :: largest
+
+    largest = maxval([NEGLIGIBLE, abs(values)])
+  end function largest_of
+
+  !> Exchange the variables whose state `at` is wrong, the worst first, and keep the best answer.
+  pure subroutine exchange(program, at, v, q)
+    type(box_program), intent(in) :: program
+    integer, intent(inout) :: at(:)
+    real(qp), intent(inout) :: v(:), q(:)
+    real(qp) :: tried(size(v)), motion(size(q)), wrong(size(v)), gradient(size(v)), least, violation
+    integer :: best(size(at)), worst, k
+
+    best = at
+    tried = v
+    motion = q
+    least = violation_of(program, v, q)
+    do k = 1, 4*size(v) + 1
+      call polish(program, at, tried, motion)
+      violation = violation_of(program, tried, motion)
+      if (violation <= least) then
+        least = violation
+        best = at
+        v = tried
+        q = motion
+      end if
+      if (.not. violation > ROUNDING*largest_of(tried) .or. size(v) < 1) exit
+      gradient = gradient_of(program, tried, motion)
+      wrong = max(program%low - tried, tried - program%high)
+      where (at /= 0) wrong = real(at, qp)*gradient
+      worst = maxloc(wrong, dim=1)
+      if (at(worst) /= 0) then
+        at(worst) = 0
+      else
+        at(worst) = merge(1, -1, tried(worst) > program%high(worst))
+      end if
+    end do
+    at = best
+  end subroutine exchange
 
   !> Bring variables to the bounds at which they are, and solve the equations of the others and of the motions. What
   !> these leave open stays as it is.
