@@ -9,7 +9,8 @@ module law_judge
     FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
   use fuge_number_text, only: text
   use general_reference, only: solve_general
-  use law_oracle, only: carried_margin, find_bounds, has_independent_modes, law_answer, solve_law
+  use law_oracle, only: carried_margin, find_bounds, has_independent_modes, law_answer, law_bounds, &
+    solve_law
   use random_laws, only: law_scene
   implicit none
   private
@@ -18,10 +19,12 @@ module law_judge
 
   !> Resultants this close to what the limits carry, as a fraction of it, may be refused or not.
   real(qp), parameter :: BORDER = 1.0e-9_qp
-  !> Factor of safety of the bounds, and what counts as rounding.
-  real(dp), parameter :: SAFETY = 16.0_dp, ROUNDING = 8.0_dp*epsilon(1.0_dp)
-  !> An error of a force above the first has a warning; the estimate is good to the second.
-  real(dp), parameter :: SILENT = 1.0e-3_dp, OF_ESTIMATE = 1.0e2_dp
+  !> Factor of safety of the bounds, and what counts as rounding; the tolerance of the
+  !> library.
+  real(dp), parameter :: SAFETY = 64.0_dp, ROUNDING = 8.0_dp*epsilon(1.0_dp), TOLERANCE = 1.0e-10_dp
+  !> An error of a force above the first has a warning; the estimate is good to the second, or below the
+  !> third.
+  real(dp), parameter :: SILENT = 1.0e-3_dp, OF_ESTIMATE = 1.0e2_dp, LEAST_ESTIMATE = 1.0e-12_dp
 
   !> What is known of a problem.
   type, public :: known_law
@@ -69,8 +72,9 @@ contains
       call fail(verdict, 'insoluble', info%message)
     else if (known%margin >= 0.0_qp) then
       call judge_warning(known, info, verdict)
-      if (verdict%fault == '' .and. info%status /= FUGE_WARN_RESIDUAL) call compare(scene, known%answer, solution, info, &
-                                                                                    verdict)
+      if (verdict%fault /= '' .or. info%status == FUGE_WARN_RESIDUAL) return
+      ! The iteration goes on to its tolerance, the others to rounding.
+      call compare(scene, known%answer, merge(TOLERANCE, ROUNDING, method == FUGE_ITERATIVE), solution, info, verdict)
     end if
   end subroutine judge_law
 
@@ -116,18 +120,19 @@ contains
     end if
   end subroutine judge_warning
 
-  !> Compare forces, and gaps and motions where they are unique.
-  subroutine compare(scene, answer, solution, info, verdict)
+  !> Compare forces, and gaps and motions where they are unique; residuals below `least` count as that.
+  subroutine compare(scene, answer, least, solution, info, verdict)
     type(law_scene), intent(in) :: scene
     type(law_answer), intent(in) :: answer
+    real(dp), intent(in) :: least
     type(fuge_solution), intent(in) :: solution
     type(fuge_info), intent(in) :: info
     type(law_verdict), intent(inout) :: verdict
-    real(dp), dimension(size(solution%force)) :: force, gap
-    real(dp) :: motion(size(solution%motion)), largest, length
+    type(law_bounds) :: bounds
+    real(dp) :: largest
 
     if (.not. answer%definite) return
-    call find_bounds(scene%alpha, scene%problem, answer, SAFETY*max(info%residual, ROUNDING), force, gap, motion)
+    call find_bounds(scene%alpha, scene%problem, answer, SAFETY*max(info%residual, least), solution%state, bounds)
     largest = real(maxval(abs(answer%force)), dp)
     if (largest > 0.0_dp) verdict%error = real(maxval(abs(solution%force - answer%force)), dp)/largest
     if (info%status == FUGE_WARN_ILL_CONDITIONED) return
@@ -135,14 +140,14 @@ contains
       continue
     else if (verdict%error > SILENT) then
       call fail(verdict, 'silent', text(verdict%error)//', estimated as '//text(info%force_error))
-    else if (verdict%error > OF_ESTIMATE*info%force_error + ROUNDING) then
+    else if (verdict%error > OF_ESTIMATE*info%force_error + LEAST_ESTIMATE) then
       call fail(verdict, 'estimate', text(verdict%error)//', estimated as '//text(info%force_error))
     end if
-    length = ROUNDING*largest
-    call compare_values('forces', solution%force, answer%force, force + length, info, verdict)
+    call compare_values('forces', solution%force, answer%force, bounds%force + ROUNDING*(largest + answer%natural), &
+                        info, verdict)
     if (info%status == FUGE_WARN_NOT_UNIQUE .or. .not. answer%resists) return
-    call compare_values('gaps', solution%gap, answer%gap, gap, info, verdict)
-    call compare_values('motions', solution%motion, answer%motion, motion, info, verdict)
+    call compare_values('gaps', solution%gap, answer%gap, bounds%gap, info, verdict)
+    call compare_values('motions', solution%motion, answer%motion, bounds%motion, info, verdict)
   end subroutine compare
 
   pure subroutine compare_values(what, found, exact, bound, info, verdict)

@@ -53,12 +53,21 @@ module law_oracle
     !> Are A + D definite, and so the forces unique? Do points between their limits resist all motions; do those at the
     !> corner of their law, together with them?
     logical :: definite = .false., resists = .false., may_resist = .false.
-    !> Do all forces together displace no more than rounding?
+    !> Do all forces together displace no more than rounding? `natural` (n) are then forces that displace by the data,
+    !> otherwise 0.
     logical :: negligible = .false.
+    real(dp), allocatable :: natural(:)
     type(box_program), private :: program
     !> At its lower bound -1, at the upper one 1, between 0.
     integer, allocatable, private :: at(:)
+    !> Is it clearly between its bounds, is its law there or at a corner?
+    logical, allocatable, private :: inside(:), touching(:)
   end type law_answer
+
+  !> Bounds of the errors of forces and gaps (n) and of motions (m).
+  type, public :: law_bounds
+    real(dp), allocatable :: force(:), gap(:), motion(:)
+  end type law_bounds
 
 contains
 
@@ -220,6 +229,8 @@ contains
       call exchange(program, answer%at, v, q)
       answer%violation = violation_of(program, v, q)/largest_of(v)
       answer%negligible = .not. largest_of(v) > NEGLIGIBLE
+      allocate (answer%natural(size(program%force_unit)))
+      answer%natural = merge(real(program%size*program%force_unit, dp), 0.0_dp, answer%negligible)
       call count_resisting(program, v, q, answer)
     end associate
     call restore(alpha, problem, v, q, answer)
@@ -657,14 +668,10 @@ contains
     type(law_answer), intent(inout) :: answer
     !> Forces and gaps below this fraction of the data count as none.
     real(qp), parameter :: NEARLY = 1.0e-9_qp
-    real(qp) :: gradient(size(v))
-    logical :: inside(size(v)), touching(size(v))
-
-    gradient = gradient_of(program, v, q)
-    inside = min(v - program%low, program%high - v) > NEARLY
-    touching = abs(gradient) <= NEARLY
-    answer%resists = rank_of(program, inside) == program%motions()
-    answer%may_resist = rank_of(program, inside .or. touching) == program%motions()
+    answer%inside = min(v - program%low, program%high - v) > NEARLY
+    answer%touching = answer%inside .or. abs(gradient_of(program, v, q)) <= NEARLY
+    answer%resists = rank_of(program, answer%inside) == program%motions()
+    answer%may_resist = rank_of(program, answer%touching) == program%motions()
   end subroutine count_resisting
 
   !> Are the modes of the points that can have a force independent of each other, springs included?
@@ -733,63 +740,94 @@ contains
                  - matmul(modes, answer%motion)
   end subroutine restore
 
-  !> How far forces and gaps (n) and motions (m) may be off if each equation is off by this fraction of its terms, in the
-  !> states of the answer.
-  pure subroutine find_bounds(alpha, problem, answer, fraction, force, gap, motion)
+  !> How far forces and gaps (n) and motions (m) may be off if each equation is off by this fraction of its terms: in the
+  !> states of the answer, in these `states`, which another answer found, and where laws at a corner have any state.
+  pure subroutine find_bounds(alpha, problem, answer, fraction, states, bounds)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
     type(law_answer), intent(in) :: answer
     real(dp), intent(in) :: fraction
-    real(dp), intent(out) :: force(:), gap(:), motion(:)
-    real(qp), allocatable :: error(:), matrix(:, :), off(:), column(:)
-    real(qp) :: modes(problem%points(), problem%mode_count()), compliance(problem%points(), problem%points())
-    real(qp), dimension(problem%points()) :: terms, carried
-    real(qp) :: moved(problem%mode_count())
-    integer, allocatable :: between(:)
-    integer :: j, k, nb
+    integer, intent(in) :: states(:)
+    type(law_bounds), intent(out) :: bounds
+    logical :: between(answer%program%variables())
+    integer :: k
 
+    call bound_between(alpha, problem, answer, answer%at == 0, fraction, bounds)
+    between = [(is_between(answer%program, k, states), k=1, size(between))]
+    call bound_between(alpha, problem, answer, between, fraction, bounds)
+    call bound_between(alpha, problem, answer, answer%inside, fraction, bounds)
+    call bound_between(alpha, problem, answer, answer%touching, fraction, bounds)
+  end subroutine find_bounds
+
+  !> Is variable `k` between its bounds if the points have these states?
+  pure function is_between(program, k, states) result(between)
+    type(box_program), intent(in) :: program
+    integer, intent(in) :: k, states(:)
+    logical :: between
+
+    associate (state => states(program%point(k)))
+      between = abs(state) == 1
+      if (.not. program%low(k) < 0.0_qp) between = between .and. state == nint(program%sign(k))
+    end associate
+  end function is_between
+
+  !> Raise the bounds to those if the variables `are_between` are between their bounds.
+  pure subroutine bound_between(alpha, problem, answer, are_between, fraction, bounds)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(law_answer), intent(in) :: answer
+    logical, intent(in) :: are_between(:)
+    real(dp), intent(in) :: fraction
+    type(law_bounds), intent(inout) :: bounds
+    ! Below this fraction of the data even quadruple precision knows nothing.
+    real(qp), parameter :: FINEST = 1.0e-20_qp
+    real(qp) :: error(count(are_between) + answer%program%motions()), off(size(error))
+    real(qp) :: column(size(off)), modes(problem%points(), problem%mode_count()), moved(problem%mode_count())
+    real(qp) :: compliance(problem%points(), problem%points()), terms(problem%points()), carried(problem%points())
+    real(qp), allocatable :: matrix(:, :)
+    integer :: between(count(are_between)), j, k, nb
+
+    nb = size(between)
+    between = pack([(k, k=1, size(are_between))], are_between)
     modes = abs(real(modes_of(problem), qp))
     compliance = abs(compliance_of(alpha, problem))
     carried = abs(answer%force)
     moved = abs(answer%motion)
     terms = abs(real(problem%gap, qp)) + matmul(compliance, carried) + matmul(modes, moved)
     associate (program => answer%program)
-      between = pack([(k, k=1, program%variables())], answer%at == 0)
-      nb = size(between)
-      allocate (error(nb + program%motions()), off(nb + program%motions()), column(nb + program%motions()))
-      do k = 1, nb
-        associate (point => program%point(between(k)))
-          error(k) = terms(point)*program%force_unit(point)
-        end associate
-      end do
+      error(:nb) = [(terms(program%point(between(k)))*program%force_unit(program%point(between(k))), k=1, nb)]
       do j = 1, program%motions()
-        error(nb + j) = abs(real(problem%resultant(program%free(j)), qp))*program%motion_unit(j) &
-          + sum(abs(modes(:, program%free(j))*answer%force))*program%motion_unit(j) &
-          + program%stiffness(j)*abs(answer%motion(program%free(j)))/program%motion_unit(j)
+        error(nb + j) = (abs(real(problem%resultant(program%free(j)), qp)) + sum(modes(:, program%free(j))*carried)) &
+                        *program%motion_unit(j) + program%stiffness(j)*moved(program%free(j))/program%motion_unit(j)
       end do
       off = 0.0_qp
-      do j = 1, size(error)
+      do j = 1, size(off)
         column = 0.0_qp
         column(j) = error(j)
         call set_equations(program, between, matrix)
         call solve_consistent(matrix, column)
         off = off + abs(column)
       end do
-      carried = 0.0_qp
+      off = fraction*off
+      carried = fraction*carried + FINEST*program%size*program%force_unit
       do k = 1, nb
         associate (point => program%point(between(k)))
           carried(point) = carried(point) + off(k)*program%force_unit(point)
         end associate
       end do
-      motion = real(abs(answer%motion), dp)
-      do j = 1, program%motions()
-        motion(program%free(j)) = real(off(nb + j)*program%motion_unit(j), dp)
-      end do
+      moved = fraction*moved
+      moved(program%free) = (off(nb + 1:) + FINEST*program%size)*program%motion_unit
     end associate
-    force = fraction*real(carried, dp)
-    moved = real(motion, qp)
-    gap = fraction*real(terms + matmul(compliance, carried) + matmul(modes, moved), dp)
-    motion = fraction*motion
-  end subroutine find_bounds
+    terms = fraction*terms + matmul(compliance, carried) + matmul(modes, moved)
+    if (.not. allocated(bounds%force)) then
+      allocate (bounds%force(size(carried)), bounds%gap(size(carried)), bounds%motion(size(moved)))
+      bounds%force = 0.0_dp
+      bounds%gap = 0.0_dp
+      bounds%motion = 0.0_dp
+    end if
+    bounds%force = max(bounds%force, real(carried, dp))
+    bounds%gap = max(bounds%gap, real(terms, dp))
+    bounds%motion = max(bounds%motion, real(moved, dp))
+  end subroutine bound_between
 
 end module law_oracle
