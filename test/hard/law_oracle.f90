@@ -16,9 +16,10 @@ module law_oracle
 
   !> Stands for infinity in limits and plays.
   real(qp), parameter :: NONE = 1.0e4000_qp
-  !> Of an interior point: products of variables and their multipliers at the end, and most steps.
-  real(qp), parameter :: LEAST_PRODUCT = 1.0e-33_qp
-  integer, parameter :: MOST_STEPS = 80
+  !> Of an interior point: products of variables and their multipliers at the end, what is left of the equations, and
+  !> most steps.
+  real(qp), parameter :: LEAST_PRODUCT = 1.0e-33_qp, LEAST_REST = 1.0e-28_qp
+  integer, parameter :: MOST_STEPS = 400
   !> Violations below this fraction of the largest force are rounding.
   real(qp), parameter :: ROUNDING = 1.0e-24_qp
   !> Forces of this size displace no more than rounding.
@@ -38,6 +39,8 @@ module law_oracle
     !> Units: force at a point, motion in a mode, and all of them together.
     real(qp), allocatable :: force_unit(:), motion_unit(:)
     real(qp) :: size = 1.0_qp
+    !> The same of gaps and prescribed motions by themselves.
+    real(qp) :: size_of_data = 1.0_qp
     integer, allocatable :: free(:)
   contains
     procedure :: variables
@@ -228,9 +231,9 @@ contains
       call find_interior(program, v, q, answer%at)
       call exchange(program, answer%at, v, q)
       answer%violation = violation_of(program, v, q)/largest_of(v)
-      answer%negligible = .not. largest_of(v) > NEGLIGIBLE
+      answer%negligible = .not. largest_of(v)*program%size > NEGLIGIBLE*program%size_of_data
       allocate (answer%natural(size(program%force_unit)))
-      answer%natural = merge(real(program%size*program%force_unit, dp), 0.0_dp, answer%negligible)
+      answer%natural = merge(real(program%size_of_data*program%force_unit, dp), 0.0_dp, answer%negligible)
       call count_resisting(program, v, q, answer)
     end associate
     call restore(alpha, problem, v, q, answer)
@@ -242,7 +245,7 @@ contains
     type(fuge_problem), intent(in) :: problem
     type(box_program), intent(out) :: program
     real(qp), allocatable :: compliance(:, :), gap(:), modes(:, :)
-    real(qp) :: limits(2), play
+    real(qp) :: limits(2), play, moved(problem%points())
     integer :: k, n
 
     n = problem%points()
@@ -264,6 +267,10 @@ contains
     end do
     program%size = max(maxval(abs(gap)), maxval([0.0_qp, abs(program%resultant)]))
     if (.not. program%size > 0.0_qp) program%size = 1.0_qp
+    moved = 0.0_qp
+    if (allocated(problem%prescribed)) moved = matmul(abs(real(modes_of(problem), qp)), &
+                                                      abs(real(problem%prescribed_motion(), qp)))
+    program%size_of_data = max(program%size, maxval((abs(real(problem%gap, qp)) + moved)*program%force_unit))
     program%resultant = program%resultant/program%size
     do k = 1, n
       limits = limits_of(problem, k)
@@ -422,7 +429,9 @@ contains
       rest = -(gradient_of(program, v, q) - low + high)
       left = program%resultant - program%stiffness*q - matmul(program%rows, v)
       product = (sum(low*below) + sum(high*above))/max(bounds, 1)
-      if (max(product, maxval([0.0_qp, abs(rest)]), maxval([0.0_qp, abs(left)])) <= LEAST_PRODUCT) exit
+      if (product <= LEAST_PRODUCT .and. max(maxval([0.0_qp, abs(rest)]), maxval([0.0_qp, abs(left)])) <= LEAST_REST) exit
+      ! Smaller ones would spoil the matrix.
+      if (product <= LEAST_PRODUCT**1.5_qp .and. bounds > 0) exit
       call set_matrix(program, low/below + high/above, matrix)
       call factor(matrix, order)
       ! The step towards products of zero, then one towards smaller ones, with what the first one leaves of second order.
@@ -454,6 +463,11 @@ contains
     at = 0
     where (program%high < NONE .and. high > above) at = 1
     where (program%low > -NONE .and. low > below) at = -1
+    ! Not both stops of a point.
+    do k = 2, nv
+      if (program%point(k) /= program%point(k - 1) .or. at(k) /= 0 .or. at(k - 1) /= 0) cycle
+      at(merge(k, k - 1, v(k) < v(k - 1))) = -1
+    end do
   end subroutine find_interior
 
   !> The matrix of a step, with these additions to the diagonal.
@@ -577,6 +591,7 @@ contains
       where (at /= 0) wrong = real(at, qp)*gradient
       worst = maxloc(wrong, dim=1)
       if (at(worst) /= 0) then
+        where (program%point == program%point(worst) .and. at == 0) at = -1
         at(worst) = 0
       else
         at(worst) = merge(1, -1, tried(worst) > program%high(worst))
@@ -809,14 +824,14 @@ contains
         off = off + abs(column)
       end do
       off = fraction*off
-      carried = fraction*carried + FINEST*program%size*program%force_unit
+      carried = fraction*carried + FINEST*program%size_of_data*program%force_unit
       do k = 1, nb
         associate (point => program%point(between(k)))
           carried(point) = carried(point) + off(k)*program%force_unit(point)
         end associate
       end do
       moved = fraction*moved
-      moved(program%free) = (off(nb + 1:) + FINEST*program%size)*program%motion_unit
+      moved(program%free) = (off(nb + 1:) + FINEST*program%size_of_data)*program%motion_unit
     end associate
     terms = fraction*terms + matmul(compliance, carried) + matmul(modes, moved)
     if (.not. allocated(bounds%force)) then
