@@ -5,8 +5,8 @@
 !> problem and all answers. It ends with an error if an engine is wrong.
 program compare_laws
   use, intrinsic :: iso_fortran_env, only: output_unit
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_solution, FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU, &
-    FUGE_WARN_RESIDUAL
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_solution, FUGE_ACTIVE_SET, FUGE_ITERATIVE, &
+    FUGE_TABLEAU, FUGE_WARN_RESIDUAL
   use general_reference, only: solve_general
   use law_judge, only: judge_law, know_law, known_law, law_verdict
   use random_laws, only: draw_laws, law_scene

@@ -255,8 +255,8 @@ contains
     gap = gap_of(problem)
     modes = real(modes_of_free(problem, program%free), qp)
     call choose_units(compliance, modes, program)
-    allocate (program%resultant(program%motions()), program%point(0), program%sign(0), program%low(0), program%high(0), &
-              program%cost(0))
+    allocate (program%resultant(program%motions()), program%point(0), program%sign(0), program%low(0), &
+              program%high(0), program%cost(0))
     program%resultant = 0.0_qp
     if (program%motions() > 0) program%resultant = real(problem%resultant(program%free), qp)*program%motion_unit
     program%stiffness = program%stiffness*program%motion_unit**2
@@ -399,7 +399,8 @@ contains
 
     gradient = gradient_of(program, v, q)
     left = program%resultant - program%stiffness*q - matmul(program%rows, v)
-    violation = maxval([0.0_qp, abs(v - min(max(v - gradient, program%low), program%high))]) + maxval([0.0_qp, abs(left)])
+    gradient = v - min(max(v - gradient, program%low), program%high)
+    violation = maxval([0.0_qp, abs(gradient)]) + maxval([0.0_qp, abs(left)])
   end function violation_of
 
   !> `v` between the bounds, the motions, and the bound at which each variable is, -1 or 1, or 0.
@@ -429,12 +430,12 @@ contains
       rest = -(gradient_of(program, v, q) - low + high)
       left = program%resultant - program%stiffness*q - matmul(program%rows, v)
       product = (sum(low*below) + sum(high*above))/max(bounds, 1)
-      if (product <= LEAST_PRODUCT .and. max(maxval([0.0_qp, abs(rest)]), maxval([0.0_qp, abs(left)])) <= LEAST_REST) exit
+      if (product <= LEAST_PRODUCT .and. maxval([0.0_qp, abs(rest), abs(left)]) <= LEAST_REST) exit
       ! Smaller ones would spoil the matrix.
       if (product <= LEAST_PRODUCT**1.5_qp .and. bounds > 0) exit
       call set_matrix(program, low/below + high/above, matrix)
       call factor(matrix, order)
-      ! The step towards products of zero, then one towards smaller ones, with what the first one leaves of second order.
+      ! The step towards products of zero, then one towards smaller ones, with the second order of the first one.
       call solve_step(matrix, order, rest - low + high, left, step, motion_step)
       low_step = -low - low/below*step
       high_step = -high + high/above*step
@@ -657,7 +658,8 @@ contains
     row_of = 0
     largest = maxval([0.0_qp, abs(reshape(matrix, [size(matrix)]))])
     do k = 1, size(right)
-      place = maxloc(abs(matrix), mask=spread(.not. row_used, 2, size(right)) .and. spread(.not. column_used, 1, size(right)))
+      place = maxloc(abs(matrix), mask=spread(.not. row_used, 2, size(right)) &
+                     .and. spread(.not. column_used, 1, size(right)))
       if (.not. abs(matrix(place(1), place(2))) > SINGULAR*largest) exit
       row_used(place(1)) = .true.
       column_used(place(2)) = .true.
@@ -676,7 +678,8 @@ contains
     right = solution
   end subroutine solve_consistent
 
-  !> Do points between their limits resist all motions without springs, and together with those whose law is at a corner?
+  !> Do points between their limits resist all motions without springs, and together with those at a corner of their
+  !> law?
   pure subroutine count_resisting(program, v, q, answer)
     type(box_program), intent(in) :: program
     real(qp), intent(in) :: v(:), q(:)
@@ -755,8 +758,8 @@ contains
                  - matmul(modes, answer%motion)
   end subroutine restore
 
-  !> How far forces and gaps (n) and motions (m) may be off if each equation is off by this fraction of its terms: in the
-  !> states of the answer, in these `states`, which another answer found, and where laws at a corner have any state.
+  !> How far forces and gaps (n) and motions (m) may be off if each equation is off by this fraction of its terms: in
+  !> the states of the answer, in these `states`, which another answer found, and where laws at a corner have any state.
   pure subroutine find_bounds(alpha, problem, answer, fraction, states, bounds)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem

@@ -83,7 +83,9 @@ contains
     end select
     scene%alpha = matmul(base, transpose(base))
     if (kind == 5) then
-      scene%alpha = reshape([((exp(-abs(real(j - k, dp))/4.0_dp), j=1, size(base, 1)), k=1, size(base, 1))], shape(base))
+      do k = 1, size(base, 1)
+        scene%alpha(:, k) = [(exp(-abs(real(j - k, dp))/4.0_dp), j=1, size(base, 1))]
+      end do
       scene%body = 'smooth'
     end if
     if (kind == 1) return
