@@ -3,8 +3,8 @@
 !>
 !>     saturated DIRECTORY [quick] [write]
 !>
-!> appends to DIRECTORY/results.csv; `quick` omits fine grids and the last load, `write` writes the problems for Tamaas, whose answers
-!> `judge_surfaces` judges. The surfaces are those of heavy_area: mean pressure 0.05 E*, tolerance 1e-8.
+!> appends to DIRECTORY/results.csv; `quick` omits fine grids and the last load, `write` writes the problems for Tamaas,
+!> whose answers `judge_surfaces` judges. The surfaces are those of heavy_area: mean pressure 0.05 E*, tolerance 1e-8.
 program saturated
   use bench_problems, only: whole
   use bench_records, only: bench_row, open_table, write_row
