@@ -71,6 +71,17 @@ def by_tamaas(gap, periodic, pressure, tolerance):
     return np.array(model.traction)
 
 
+def by_tamaas_saturated(gap, periodic, pressure, tolerance, hardness):
+    """Pressures up to the hardness (Kato), in C++."""
+    tamaas.set_log_level(tamaas.LogLevel.error)
+    model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [1.0, 1.0], list(gap.shape))
+    model.E, model.nu = 1.0, 0.0
+    solver = tamaas.KatoSaturated(model, gap.max() - gap, tolerance, hardness)
+    solver.max_iter = 10**7
+    solver.solve(pressure)
+    return np.array(model.traction)
+
+
 def by_contactmechanics(gap, periodic, pressure, tolerance):
     """Projected conjugate gradients in Python; its tolerance is a length."""
     kind = PeriodicFFTElasticHalfSpace if periodic else FreeFFTElasticHalfSpace
@@ -85,6 +96,8 @@ def by_contactmechanics(gap, periodic, pressure, tolerance):
 
 CODES = {"aspher": by_aspher, "aspher_nested": by_aspher_nested, "tamaas": by_tamaas,
          "contactmechanics": by_contactmechanics}
+# Those that know a hardness.
+SATURATED_CODES = {"tamaas": by_tamaas_saturated}
 
 
 def read_area(path):
@@ -104,16 +117,19 @@ def main():
         fields, gap = read_area(os.path.join(directory, name))
         family, n, periodic = fields["problem"], len(gap), fields["periodic"] == "1"
         print(f"              {family}, {n} x {n}", flush=True)
-        pictured = periodic and family not in done
+        problem = (gap, periodic, float(fields["pressure"]))
+        saturated = "hardness" in fields
+        pictured = periodic and family not in done and not saturated
         done.add(family)
-        for method, solver in CODES.items():
+        for method, solver in (SATURATED_CODES if saturated else CODES).items():
             tolerances = (LARGE_TOLERANCE if periodic else SPHERE_TOLERANCE,)
             if pictured:
                 tolerances = TOLERANCES if method.startswith("aspher") else FEW_TOLERANCES
             for tolerance in tolerances if n <= MOST[method] else ():
                 # Pressures to forces of the cells.
-                answers.add(name, method, tolerance, family, solver,
-                            (gap, periodic, float(fields["pressure"]), float(tolerance)), 1.0 / n**2)
+                hardness = (float(fields["hardness"]),) if saturated else ()
+                answers.add(name, method, tolerance, family, solver, (*problem, float(tolerance), *hardness),
+                            1.0 / n**2)
 
 
 main()

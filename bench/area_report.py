@@ -17,6 +17,8 @@ PICTURE = 512**2
 AT = 256
 # Errors that differ by less are rounding, and the remaining residual of the solve.
 ROUNDING = 1e-11
+# Problems with a hardness: the mean pressure in per cent of it follows.
+SATURATED = "saturated_"
 TOLERANCE = {"sphere": 1e-10, "light_area": 1e-8, "heavy_area": 1e-8}
 
 
@@ -70,6 +72,24 @@ def comparison_table(data):
     head = ["problem", "in contact", "products + preconditioner", "fuge: operator and first solve", "next solve",
             *ALL_CODES.values(), "fastest other one over fuge"]
     return table(head, rows)
+
+
+def saturated_table(data):
+    """Surfaces with a hardness: from a few points at their limit to all of them, beside Tamaas."""
+    rows = []
+    found = [row for row in data.rows if row["problem"].startswith(SATURATED) and row["method"] == "iterative_fft"]
+    for own in sorted(found, key=lambda row: (row["n"], int(row["problem"][len(SATURATED):]))):
+        peer = data.one(problem=own["problem"], n=own["n"], method="tamaas")
+        n = side(own)
+        shares = [f"{100.0 * own[key] / own['n']:.2g} %" if own[key] < own["n"] else "100 %"
+                  for key in ("unknowns", "limited")]
+        rows.append([f"{n} x {n}", f"{int(own['problem'][len(SATURATED):])} %", *shares,
+                     f"{own['products_or_pivots']:.0f} + {own['preconditionings']:.0f}",
+                     f"**{seconds(own['first_s'])}** {short(own['residual'])}", seconds(own["time_s"]), cell(peer),
+                     f"{total(peer) / own['first_s']:.0f}" if peer and not peer["failure"] else ""])
+    head = ["cells", "mean pressure over hardness", "in contact", "at the limit", "products + preconditioner",
+            "fuge: operator and first solve", "next solve", "Tamaas, `KatoSaturated`", "Tamaas over fuge"]
+    return table(head, rows) if rows else ""
 
 
 def order_table(data):
@@ -150,4 +170,5 @@ def speed_sentence(data):
 
 
 def tables(data):
-    return {"areas": comparison_table(data), "area_orders": order_table(data), "area_growth": growth_table(data)}
+    return {"areas": comparison_table(data), "saturated": saturated_table(data), "area_orders": order_table(data),
+            "area_growth": growth_table(data)}

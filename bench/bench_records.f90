@@ -19,6 +19,8 @@ module bench_records
     real(dp) :: tolerance = -1.0_dp, setup = -1.0_dp, limit = -1.0_dp
     !> Areas only: operator and first solve; error of the largest pressure.
     real(dp) :: first = -1.0_dp, error_peak = -1.0_dp
+    !> Points at the limit of their force.
+    integer :: limited = -1
     character(len=60) :: failure = ''
   end type bench_row
 
@@ -34,7 +36,7 @@ contains
     open (newunit=unit, file=trim(directory)//'/results.csv', position='append', action='write')
     if (.not. exists) write (unit, '(a)') 'problem,method,element,n,unknowns,products_or_pivots,time_s,' &
       //'time_over_limit,residual,error_halfwidth,error_pressure,error_force_max,memory_bytes,error_approach,' &
-      //'error_solver,tolerance,setup_s,limit_s,preconditionings,first_s,error_peak,failure'
+      //'error_solver,tolerance,setup_s,limit_s,preconditionings,first_s,error_peak,limited,failure'
   end subroutine open_table
 
   subroutine write_row(unit, row)
@@ -49,8 +51,8 @@ contains
       ',', number(row%residual), ',', number(row%error_half_width), ',', number(row%error_pressure), &
       ',', number(row%error_force), ',', number(row%memory), ',', number(row%error_approach), &
       ',', number(row%error_solver), ',', number(row%tolerance), ',', number(row%setup), ',', number(row%limit), &
-      ',', count_or_blank(row%preconditionings), ',', number(row%first), ',', number(row%error_peak), ',', &
-      trim(without_commas(row%failure))
+      ',', count_or_blank(row%preconditionings), ',', number(row%first), ',', number(row%error_peak), &
+      ',', count_or_blank(row%limited), ',', trim(without_commas(row%failure))
     flush (unit)
   end subroutine write_row
 

@@ -125,18 +125,29 @@ contains
     real(dp), intent(in) :: force(:)
     type(bench_row), intent(inout) :: row
     real(dp), allocatable :: gap(:)
+    logical, allocatable :: limited(:)
     real(dp) :: scale, approach, peak
 
-    allocate (gap(size(force)))
+    allocate (gap(size(force)), limited(size(force)))
+    limited = .false.
+    if (surface%hardness > 0.0_dp) limited = force >= (1.0_dp - IN_CONTACT)*surface%largest_force()
     call displace(self, surface%n, force, gap)
     scale = max(maxval(gap) - minval(gap), surface%load/surface%side)
     gap = gap + surface%gap
-    approach = sum(max(force, 0.0_dp)*gap)/sum(max(force, 0.0_dp))
+    approach = maxval(gap)
+    if (.not. all(limited)) approach = sum(max(force, 0.0_dp)*gap, mask=.not. limited) &
+      /max(sum(max(force, 0.0_dp), mask=.not. limited), tiny(approach))
     gap = gap - approach
+    ! Points at their limit give way.
+    where (limited) gap = max(gap, 0.0_dp)
     peak = maxval(force)
     row%unknowns = count(force > IN_CONTACT*peak)
     row%residual = max(-minval(gap)/scale, maxval(abs(gap), mask=force > IN_CONTACT*peak)/scale, -minval(force)/peak, &
                        abs(sum(force)/surface%load - 1.0_dp))
+    if (surface%hardness > 0.0_dp) then
+      row%limited = count(limited)
+      row%residual = max(row%residual, peak/surface%largest_force() - 1.0_dp)
+    end if
     if (surface%contact_radius > 0.0_dp) call find_errors(surface, force, approach, row)
   end subroutine judge
 

@@ -16,12 +16,15 @@ module bench_surfaces
     !> Cells along each side; point i + n*(j - 1) is the cell in column i and row j.
     integer :: n = 0
     real(dp) :: side = 1.0_dp, load = 0.0_dp
+    !> The largest pressure; 0: no limit.
+    real(dp) :: hardness = 0.0_dp
     integer :: element = FUGE_CENTRE, boundary = FUGE_FREE
     real(dp), allocatable :: gap(:)
     !> Of a sphere: radius of the contact and approach; 0: there is no known answer.
     real(dp) :: contact_radius = 0.0_dp, approach = 0.0_dp
   contains
     procedure :: cell
+    procedure :: largest_force
     procedure :: contact
     procedure :: exact_forces
   end type bench_surface
@@ -32,6 +35,7 @@ module bench_surfaces
   !> The rough surface. Mean pressures over E*.
   integer, parameter :: LONGEST_WAVE = 4, CELLS_OF_SHORTEST = 8
   real(dp), parameter :: HURST = 0.8_dp, SLOPE_RMS = 0.1_dp, LIGHT = 0.005_dp, HEAVY = 0.05_dp
+  character(len=*), parameter :: SATURATED = 'saturated_'
 
 contains
 
@@ -42,6 +46,14 @@ contains
     cell = self%side/real(self%n, dp)
   end function cell
 
+  !> The hardness times the area of a cell.
+  pure function largest_force(self)
+    class(bench_surface), intent(in) :: self
+    real(dp) :: largest_force
+
+    largest_force = self%hardness*self%cell()**2
+  end function largest_force
+
   !> The problem as a solver takes it.
   pure function contact(self) result(problem)
     class(bench_surface), intent(in) :: self
@@ -49,14 +61,24 @@ contains
 
     allocate (problem%gap, source=self%gap)
     allocate (problem%resultant, source=[self%load])
+    if (self%hardness > 0.0_dp) allocate (problem%limit, source=spread(self%largest_force(), 1, size(self%gap)))
   end function contact
 
-  !> The surface `name`: sphere, light or heavy.
+  !> The surface `name`: sphere, light or heavy, or saturated_P, the heavy one with a mean pressure of P % of the
+  !> hardness.
   subroutine make_surface(name, n, surface)
     character(len=*), intent(in) :: name
     integer, intent(in) :: n
     type(bench_surface), intent(out) :: surface
+    integer :: share
 
+    if (index(name, SATURATED) == 1) then
+      call make_rough_surface(n, HEAVY, surface)
+      read (name(len(SATURATED) + 1:), *) share
+      surface%hardness = 100.0_dp*HEAVY/real(share, dp)
+      surface%name = name
+      return
+    end if
     select case (name)
     case ('sphere')
       call make_sphere(n, FUGE_CENTRE, surface)
@@ -65,7 +87,7 @@ contains
     case ('heavy_area')
       call make_rough_surface(n, HEAVY, surface)
     case default
-      error stop 'a surface is sphere, light_area or heavy_area'
+      error stop 'a surface is sphere, light_area, heavy_area or saturated_P'
     end select
     surface%name = name
   end subroutine make_surface
@@ -246,6 +268,7 @@ contains
     write (unit, '(2a)') 'problem ', trim(surface%name)
     write (unit, '(a, i0)') 'n ', surface%n, 'periodic ', surface%boundary
     write (unit, '(a, es24.16)') 'side ', surface%side, 'pressure ', surface%load/surface%side**2
+    if (surface%hardness > 0.0_dp) write (unit, '(a, es24.16)') 'hardness ', surface%hardness
     close (unit)
   end subroutine write_surface
 
