@@ -233,7 +233,8 @@ contains
     call self%add_magnitudes(force, magnitude)
   end subroutine find_magnitude
 
-  !> The least of the pairs of A, and twice the least compliance: springs move no two points together.
+  !> The least of the pairs of A and twice the compliance, if that is the same at all points in contact: springs move no
+  !> two points together. Otherwise unknown, because nothing tells which pair is the least.
   function least_pair_compliance(self, contact, modes) result(compliance)
     class(spring_operator), intent(in) :: self
     logical, intent(in) :: contact(:)
@@ -241,12 +242,20 @@ contains
     real(dp) :: compliance
     class(fuge_operator), pointer :: elastic
     type(point_space) :: space
+    real(dp) :: extremes(2)
 
     elastic => self%elastic()
     compliance = elastic%least_pair_compliance(contact, modes)
     if (.not. allocated(self%compliance) .or. compliance >= huge(compliance)) return
     space = self%ranks()
-    compliance = compliance + 2.0_dp*space%least(minval(self%compliance, mask=contact))
+    if (.not. space%anywhere(any(contact))) return
+    extremes = [space%least(minval(self%compliance, mask=contact)), &
+                space%largest(maxval(self%compliance, mask=contact))]
+    if (extremes(2) > extremes(1)) then
+      compliance = huge(compliance)
+    else
+      compliance = compliance + 2.0_dp*extremes(1)
+    end if
   end function least_pair_compliance
 
   function has_preconditioner(self) result(preconditioned)
