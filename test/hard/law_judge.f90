@@ -9,8 +9,9 @@ module law_judge
     FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
   use fuge_number_text, only: text
   use general_reference, only: solve_general
-  use law_oracle, only: carried_margin, find_bounds, has_independent_modes, law_answer, law_bounds, &
-    solve_law
+  use law_margins, only: carried_margin
+  use law_oracle, only: find_bounds, law_answer, law_bounds, solve_law
+  use law_programs, only: has_independent_modes
   use random_laws, only: law_scene
   implicit none
   private
