@@ -27,15 +27,8 @@ module fuge_matrix_survey
     real(dp) :: asymmetry = 0.0_dp
     !> No pair of opposite forces gains energy.
     logical :: pairs_hold = .false.
-    !> The largest coefficient beside the diagonal, and the least on it.
-    real(dp) :: most_beside_diagonal = -huge(1.0_dp), least_on_diagonal = huge(1.0_dp)
-    !> Springs were added to the diagonal, some of which may be far softer than all else: such coefficients say nothing
-    !> about other points.
-    logical :: has_springs = .false.
   contains
     procedure :: largest
-    procedure :: largest_shared
-    procedure :: most_shared
     procedure :: nearest_to_zero
   end type matrix_survey
 
@@ -148,7 +141,6 @@ contains
     end do
     survey%least = least
     survey%most = max(survey%most, most)
-    survey%most_beside_diagonal = max(survey%most_beside_diagonal, most)
     survey%asymmetry = asymmetry
     do i = 1, rows
       row_energy(i) = tolerated(alpha(first_row + i - 1, first_row + i - 1))
@@ -158,7 +150,6 @@ contains
       if (first_row /= first_column) cycle
       survey%least = min(survey%least, here(j, j))
       survey%most = max(survey%most, here(j, j))
-      survey%least_on_diagonal = min(survey%least_on_diagonal, here(j, j))
     end do
     ! The largest coefficient beside the diagonal settles most tiles.
     if (most <= 0.5_dp*(minval(row_energy(:rows)) + minval(column_energy(:columns)))) return
@@ -183,24 +174,6 @@ contains
 
     largest = max(abs(self%least), abs(self%most))
   end function largest
-
-  !> The greatest coefficient that may count at all points: without springs the greatest one. With springs, those on the
-  !> diagonal beyond the least of them are left out.
-  pure function most_shared(self) result(most)
-    class(matrix_survey), intent(in) :: self
-    real(dp) :: most
-
-    most = self%most
-    if (self%has_springs) most = max(self%most_beside_diagonal, self%least_on_diagonal)
-  end function most_shared
-
-  !> The largest of these coefficients without its sign.
-  pure function largest_shared(self) result(largest)
-    class(matrix_survey), intent(in) :: self
-    real(dp) :: largest
-
-    largest = max(abs(self%least), abs(self%most_shared()))
-  end function largest_shared
 
   !> The coefficient nearest to zero, or 0 if there are both signs: subtracting it from the coefficients costs no
   !> digits.

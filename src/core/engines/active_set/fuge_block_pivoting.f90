@@ -7,7 +7,6 @@ module fuge_block_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: FUGE_OPEN
-  use fuge_displacements, only: displacement_magnitude
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: translation_at_shallowest
@@ -292,16 +291,11 @@ contains
     logical, intent(in) :: idle(:)
     type(contact_solution), intent(in) :: solution, trial
     logical :: closed
-    real(dp) :: stop_distance(size(idle)), length(size(idle))
+    real(dp) :: stop_distance(size(idle)), length
 
     stop_distance = trial%gap
     where (solution%state < FUGE_OPEN) stop_distance = trial%gap - canonical%upper
-    if (canonical%survey%has_springs) then
-      ! A soft spring is no scale of other points.
-      length = displacement_magnitude(canonical%alpha, 0.0_dp, abs(trial%force) > 0.0_dp, trial%force)
-    else
-      length = canonical%survey%largest()*sum(abs(trial%force))
-    end if
+    length = canonical%survey%largest()*sum(abs(trial%force))
     closed = all(abs(stop_distance) <= NO_LENGTH*(length + abs(canonical%gap)) .or. .not. idle)
   end function stays_closed
 

@@ -39,8 +39,6 @@ module fuge_kkt_base_set
     real(dp) :: regularisation = 0.0_dp
     !> Largest diagonal over least pivot: a lower bound of the condition number.
     real(dp) :: pivot_ratio = 1.0_dp
-    !> Springs stand on the diagonal of alpha: soft ones are no scale of other points.
-    logical :: has_springs = .false.
   contains
     procedure :: factorise
     procedure :: augmentation_entries
@@ -64,7 +62,6 @@ contains
     if (status /= FUGE_DONE) return
     self%datum = 0.0_dp
     self%augmentation = 0.0_dp
-    self%has_springs = canonical%survey%has_springs
     call gather_block(self, canonical%alpha, nearest_to_zero, range)
     if (.not. range > 0.0_dp) range = stand_in_compliance(canonical)
     ! For one translation the datum is enough; for other modes alpha is augmented too.
@@ -158,8 +155,6 @@ contains
     if (.not. is_definite) return
     largest = maxval(self%diagonal)
     do j = 1, m
-      ! Scaled by its diagonal, a matrix with a soft spring may well be conditioned.
-      if (self%has_springs) largest = self%diagonal(j)
       is_definite = is_definite .and. self%lower(j, j)**2 > PIVOT_TOLERANCE*real(m, dp)*self%diagonal(j)
       if (is_definite) self%pivot_ratio = max(self%pivot_ratio, largest/self%lower(j, j)**2)
     end do
@@ -216,15 +211,15 @@ contains
     end do
   end function augmentation_entries
 
-  !> A compliance for a block that has none: the largest of alpha that may count at all points, or where alpha is zero
-  !> one by which the loads displace as much as the least gap or play; 1 without loads or lengths.
+  !> A compliance for a block that has none: the largest of alpha, or where alpha is zero one by which the loads
+  !> displace as much as the least gap or play; 1 without loads or lengths.
   pure function stand_in_compliance(canonical) result(compliance)
     type(canonical_problem), intent(in) :: canonical
     real(dp) :: compliance
     real(dp) :: datum, length
     integer :: k
 
-    compliance = canonical%survey%largest_shared()
+    compliance = canonical%survey%largest()
     if (compliance > 0.0_dp) return
     compliance = 1.0_dp
     datum = 0.0_dp
@@ -240,28 +235,20 @@ contains
     end if
   end function stand_in_compliance
 
-  !> Gather the block of the base set; its coefficient that is nearest to zero, and the range of its coefficients,
-  !> where springs are left out but for the least diagonal.
+  !> Gather the block of the base set; its coefficient that is nearest to zero, and the range of its coefficients.
   !> Equal coefficients, as of a single point, have a range of their own size, which is 0 for no compliance at all.
   pure subroutine gather_block(self, alpha, nearest_to_zero, range)
     class(kkt_base_set), intent(inout) :: self
     real(dp), intent(in), contiguous :: alpha(:, :)
     real(dp), intent(out) :: nearest_to_zero, range
-    real(dp) :: least, most, least_diagonal
+    real(dp) :: least, most
     integer :: j
 
     least = huge(least)
     most = -huge(most)
-    least_diagonal = huge(least_diagonal)
     do j = 1, size(self%base_set)
-      call gather_column(alpha(:, self%base_set(j)), self%base_set(j:), self%lower(j:, j), .not. self%has_springs, &
-                         least, most)
-      least_diagonal = min(least_diagonal, self%lower(j, j))
+      call gather_column(alpha(:, self%base_set(j)), self%base_set(j:), self%lower(j:, j), least, most)
     end do
-    if (self%has_springs) then
-      least = min(least, least_diagonal)
-      most = max(most, least_diagonal)
-    end if
     if (size(self%base_set) < 1) then
       least = 0.0_dp
       most = 0.0_dp
@@ -276,12 +263,10 @@ contains
     nearest_to_zero = max(least, 0.0_dp) + min(most, 0.0_dp)
   end subroutine gather_block
 
-  !> `gathered` is the `column` at the `points`; `least` and `most` go along, for the first point, on the diagonal, only
-  !> if that `counts`.
-  pure subroutine gather_column(column, points, gathered, counts, least, most)
+  !> `gathered` is the `column` at the `points`; `least` and `most` go along.
+  pure subroutine gather_column(column, points, gathered, least, most)
     real(dp), intent(in), contiguous :: column(:)
     integer, intent(in), contiguous :: points(:)
-    logical, intent(in) :: counts
     real(dp), intent(inout), contiguous :: gathered(:)
     real(dp), intent(inout) :: least, most
     integer :: i, first
@@ -294,7 +279,7 @@ contains
         gathered(i) = column(points(i))
       end do
     end if
-    do i = merge(1, 2, counts), size(points)
+    do i = 1, size(points)
       least = min(least, gathered(i))
       most = max(most, gathered(i))
     end do

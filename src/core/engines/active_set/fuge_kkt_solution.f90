@@ -203,8 +203,8 @@ contains
     integer :: j
 
     error = error_left(arrays%changes(:arrays%corrections), arrays%taken)
-    if (arrays%changes(1)*(canonical%survey%largest_shared() + abs(canonical%datum)) <= &
-        RESIDUALS_COUNT*arrays%changes(0)*(canonical%survey%most_shared() - canonical%survey%least)) return
+    if (arrays%changes(1)*(canonical%survey%largest() + abs(canonical%datum)) <= &
+        RESIDUALS_COUNT*arrays%changes(0)*(canonical%survey%most - canonical%survey%least)) return
     arrays%residual = abs(gap) + abs(canonical%datum)*sum(abs(force)) &
                       + displacement_magnitude(canonical%alpha, 0.0_dp, abs(force) > 0.0_dp, force)
     do j = 1, size(motion)
@@ -327,12 +327,7 @@ contains
     real(dp) :: most
     integer :: j
 
-    most = maxval(abs(gap)) &
-           + (canonical%survey%largest_shared() + abs(canonical%datum) + regularisation)*sum(abs(force))
-    if (canonical%survey%has_springs) then
-      ! A soft spring displaces its own point only.
-      most = most + maxval([(abs(canonical%alpha(j, j)*force(j)), j=1, size(force))])
-    end if
+    most = maxval(abs(gap)) + (canonical%survey%largest() + abs(canonical%datum) + regularisation)*sum(abs(force))
     do j = 1, size(motion)
       most = most + maxval(abs(canonical%modes(:, j)))*abs(motion(j))
     end do

@@ -154,7 +154,7 @@ contains
     zero_force = 0.0_dp
     if (any(abs(canonical%load) > 0.0_dp)) return
     length = 0.0_dp
-    largest = canonical%survey%largest_shared()
+    largest = canonical%survey%largest()
     do k = 1, size(reduced_gap)
       if (canonical%excluded(k)) cycle
       if (size(canonical%load) > 0) then

@@ -74,7 +74,6 @@ contains
       self%alpha(n + k, n + k) = arm(k)*(arm(k)/stiffness(k))
     end do
     call survey_matrix(self%alpha, self%survey)
-    self%survey%has_springs = .true.
     self%compliance = compliance
     self%motion_compliance = arm*(arm/stiffness)
     self%source = operator%stamp()

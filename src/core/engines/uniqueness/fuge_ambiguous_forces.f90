@@ -6,7 +6,6 @@ module fuge_ambiguous_forces
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: is_at_stop
-  use fuge_displacements, only: displacement_magnitude_at
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_pivoted_qr, only: orthogonal_complement
@@ -17,8 +16,7 @@ module fuge_ambiguous_forces
 
   public :: find_ambiguous_forces, mark_touching
 
-  !> A gap may be rounded by this many units in the last place of the largest displacement or motion; with springs, of
-  !> the terms of its own displacement and motion.
+  !> A gap may be rounded by this many units in the last place of the largest displacement or motion.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
   !> Displacements below this fraction of their terms count as zero.
   real(dp), parameter :: NO_DISPLACEMENT = 1.0e-12_dp
@@ -48,26 +46,9 @@ contains
     do k = 1, size(touching)
       if (touching(k) .or. canonical%excluded(k)) cycle
       touching(k) = canonical%slack(k, solution%state(k), solution%gap(k)) <= rounding
-      if (.not. touching(k)) cycle
-      if (canonical%survey%has_springs) touching(k) = touches_for_itself(canonical, solution, first, k)
       beyond = beyond .or. touching(k)
     end do
   end subroutine mark_touching
-
-  !> Is the gap of an open point `k` at a stop no more than the rounding of its own terms? Soft springs at other points
-  !> contribute nothing to them. Motions count from the `first` one on.
-  pure function touches_for_itself(canonical, solution, first, k) result(touches)
-    type(canonical_problem), intent(in) :: canonical
-    type(contact_solution), intent(in) :: solution
-    integer, intent(in) :: first, k
-    logical :: touches
-    real(dp) :: terms
-
-    terms = displacement_magnitude_at(canonical%alpha, canonical%datum, abs(solution%force) > 0.0_dp, &
-                                      solution%force, k) &
-            + sum(abs(canonical%modes(k, first:)*solution%motion(first:)))
-    touches = canonical%slack(k, solution%state(k), solution%gap(k)) <= ROUNDINGS*epsilon(terms)*terms
-  end function touches_for_itself
 
   !> Are there forces at the `touching` points (n) that may be added to those of the solution? `ambiguous` tells.
   !>

@@ -94,7 +94,7 @@ contains
     end do
     largest = max(maxval(abs(canonical%gap), mask=.not. canonical%excluded), &
                   maxval(canonical%upper, mask=canonical%upper < huge(largest) .and. .not. canonical%excluded), &
-                  (canonical%survey%most_shared() - canonical%survey%least)*canonical%largest_load())
+                  (canonical%survey%most - canonical%survey%least)*canonical%largest_load())
     has_no_force = contact .and. abs(rest) > NO_LENGTH*largest + ROUNDINGS*epsilon(largest)*terms
     do j = 1, size(length)
       if (.not. contact(j)) cycle
