@@ -136,6 +136,8 @@ contains
       load = merge(problem%resultants() - problem%spring_loads(solution%motion), carried, excess > MUCH_FARTHER)
       on_spring = on_spring .and. .not. excess > MUCH_FARTHER
     end do
+    ! Motions on springs are found to the tolerance, and forces with them.
+    if (any(problem%motions_on_springs())) info%force_error = max(info%force_error, options%tolerance)
     call springs%detach()
     call move_alloc(springs, self%springs)
     self%soft = problem%stiffnesses()

@@ -1,12 +1,14 @@
 !> Whether contact forces within limits can carry the resultant.
 !>
 !> Looks for f with R^T f = w and least <= f <= most by least squares with bounds (P. B. Stark, R. L. Parker,
-!> Computational Statistics 10, 1995). Where there is no such f, the remainder of w proves it: it is a motion along
+!> Computational Statistics 10, 1995), one point at a time from an even share on, which leaves few points to it. Where
+!> there is no such f, the remainder of w proves it: it is a motion along
 !> which all forces, each at the limit that does most work, do less work than the resultant.
 module fuge_limited_equilibrium
   use fuge_equilibrium, only: is_in_equilibrium, is_negligible
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgelsy
+  use fuge_load_sharing, only: share_load
   implicit none
   private
 
@@ -18,6 +20,12 @@ module fuge_limited_equilibrium
   real(dp), parameter :: DEPENDENT = 1.0e-13_dp
   !> A resultant beyond the limits by this many units in its last place is carried by all of them.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
+
+  !> What forces can still gain is less than this fraction of what the resultant does: at the least remainder it is
+  !> nothing, for a resultant that can just be carried all.
+  real(dp), parameter :: PROOF = 0.5_dp
+  !> Steps by points that do next to no work, after which equilibrium is left undecided.
+  integer, parameter :: MOST_UNPROVEN = 50
 
 contains
 
@@ -31,18 +39,31 @@ contains
     real(dp), intent(out) :: force(:), remainder(:)
     real(dp) :: terms(size(resultant))
     logical :: basic(size(force))
-    integer :: iteration, j, newest
+    logical :: undecided
+    integer :: iteration, j, newest, unproven
 
     force = 0.0_dp
     remainder = resultant
-    if (size(resultant) == 1) call share_evenly(modes(:, 1), resultant(1), least, most, force)
+    if (size(resultant) == 1) then
+      call share_evenly(modes(:, 1), resultant(1), least, most, force)
+    else if (size(resultant) > 1) then
+      call share_load(modes, resultant, least, most, force)
+    end if
     basic = .false.
+    unproven = 0
     do iteration = 1, 20*(size(resultant) + 1) + 4*size(force)
       remainder = resultant - [(dot_product(force, modes(:, j)), j=1, size(resultant))]
       if (is_in_equilibrium(modes, resultant, noise, force, remainder)) exit
       terms = [(sum(abs(force*modes(:, j))), j=1, size(terms))]
       newest = point_with_most_work(modes, remainder, ROUNDINGS*(noise + epsilon(noise)*terms), force, least, most, &
                                     basic)
+      if (newest == 0) then
+        undecided = .not. proves_no_equilibrium(modes, remainder, force, least, most)
+        if (undecided) unproven = unproven + 1
+        if (unproven > MOST_UNPROVEN) exit
+        ! Many points that do little work each can carry what is left.
+        if (undecided) newest = point_with_most_work(modes, remainder, 0.0_dp*terms, force, least, most, basic)
+      end if
       if (newest == 0) then
         if (is_negligible(remainder, resultant, terms)) exit
         return
@@ -99,6 +120,23 @@ contains
       point = k
     end do
   end function point_with_most_work
+
+  !> Do forces, each at the limit that does most work along the remainder, do clearly less than the resultant? Points
+  !> without a limit do none then, but for rounding.
+  pure function proves_no_equilibrium(modes, remainder, force, least, most) result(proves)
+    real(dp), intent(in) :: modes(:, :), remainder(:), force(:), least(:), most(:)
+    logical :: proves
+    real(dp) :: gain, work
+    integer :: k
+
+    gain = 0.0_dp
+    do k = 1, size(force)
+      work = dot_product(modes(k, :), remainder)
+      if (work > 0.0_dp .and. most(k) < huge(work)) gain = gain + work*(most(k) - force(k))
+      if (work < 0.0_dp .and. least(k) > -huge(work)) gain = gain + work*(least(k) - force(k))
+    end do
+    proves = gain < PROOF*sum(remainder**2)
+  end function proves_no_equilibrium
 
   !> Change the forces of the basic points so that the remainder becomes least; those that meet a limit stay there and
   !> are basic no more, the first one first.
