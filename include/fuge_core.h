@@ -434,8 +434,8 @@ int fuge_set_excluded(fuge_solver *s, const int *excluded);
  * closes its gap by compliance*f more, c = g + (alpha + D) f - R q with D = diag(compliance).
  *   compliance  in  n, >= 0; length per force.  NULL: none
  * Of a dense operator the solver keeps a copy of the matrix then, with springs, unless the
- * iteration solves.  Every engine knows compliances and springs on motions, but neither ranks
- * nor fuge_follow_path do: FUGE_ERR_UNSUPPORTED.  FUGE_ERR_LAW for a negative one,
+ * iteration solves.  Every engine and fuge_follow_path know compliances and springs on motions,
+ * but ranks do not: FUGE_ERR_UNSUPPORTED.  FUGE_ERR_LAW for a negative one,
  * FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
 int fuge_set_compliance(fuge_solver *s, const double *compliance);
 
@@ -447,8 +447,8 @@ int fuge_set_compliance(fuge_solver *s, const double *compliance);
  *   limit_upper  in  n, >= 0, of the size of the force at the upper stop, for a tied point of a
  *                    pulling force; likewise
  * Resultants beyond the limits are FUGE_ERR_NO_EQUILIBRIUM of fuge_solve.  Every engine knows
- * limits, but neither ranks nor fuge_follow_path do: FUGE_ERR_UNSUPPORTED.  FUGE_ERR_LAW for a
- * negative one, FUGE_ERR_NOT_FINITE for NaN. */
+ * limits, and so does fuge_follow_path, but ranks do not: FUGE_ERR_UNSUPPORTED.  FUGE_ERR_LAW
+ * for a negative one, FUGE_ERR_NOT_FINITE for NaN. */
 int fuge_set_limits(fuge_solver *s, const double *limit, const double *limit_upper);
 
 /* One translation, free under the load F_0 >= 0; force.  With fuge_set_gap(s, gap, NULL)
@@ -524,10 +524,12 @@ int fuge_load_path(const fuge_operator *op, const double *gap, double load, int 
  *   motion     out  m for each entry: q there, entry k at motion + k*m; after the jump if
  *                   q jumps, as it may if no contact resists it
  *   rate       out  m for each entry: dq/d(parameter) from there to the next one
- *   state      out  any state but the limited ones
- *   contacts   out  points at a stop from there on
- * The other arguments are as above.  FUGE_ERR_NO_EQUILIBRIUM if equilibrium ends on the
- * path: the message has the parameter; choose an end before it.  FUGE_ERR_CALL_ORDER and
+ *   state      out  any state
+ *   contacts   out  points at a stop or at their limit from there on
+ * The other arguments are as above.  Compliances, limits of the forces and springs on motions
+ * hold all along; a point that comes to its limit or leaves it has an entry.
+ * FUGE_ERR_NO_EQUILIBRIUM if equilibrium ends on the path, also where the limits carry no
+ * more: the message has the parameter; choose an end before it.  FUGE_ERR_CALL_ORDER and
  * FUGE_ERR_UNSUPPORTED as for fuge_solve with a matrix. */
 int fuge_follow_path(const fuge_solver *s, const double *finish, int capacity, double *parameter,
                      double *motion, double *rate, int *point, int *state, int *contacts,

@@ -50,7 +50,7 @@ class Path:
     state : ndarray of int, shape (entries,)
         Its new state, a value of :class:`PointState`.
     contacts : ndarray of int, shape (entries,)
-        Points in contact from there on.
+        Points in contact from there on, those at their limit included.
     """
 
     parameter: NDArray[np.float64]

@@ -341,6 +341,9 @@ class Solver(Owner):
     def follow_path(self, finish: ArrayLike) -> Path:
         """The exact course of the contact from the present problem to one with other loads, without load steps.
 
+        Springs at the points and on motions and limits of the forces hold all along: a point that comes to its limit
+        or leaves it has an entry.
+
         Parameters
         ----------
         finish : float, or array_like of shape (m,)
@@ -350,7 +353,7 @@ class Solver(Owner):
         Raises
         ------
         EquilibriumError
-            Equilibrium ends on the path; the message has the parameter.
+            Equilibrium ends on the path, also where the limits carry no more; the message has the parameter.
         UnsupportedError
             The operator has no matrix.
         """

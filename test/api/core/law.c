@@ -201,9 +201,35 @@ static int twice(int n, const double *f, double *u, void *user) {
   return 0;
 }
 
-/* The iteration finds what the active set does, with a matrix and with products only; load paths know no laws. */
+/* Springs of stiffness 1 and 2 share the load until the second one is at its limit of 3, at a load of 4.5.  The body's
+ * own spring of stiffness 3 takes as much as both. */
+static void test_path(void) {
+  const double limit[N] = {HUGE_VAL, 3.0}, least = 4.5, most = 18.0;
+  double parameter[3], motion[3], rate[3];
+  int point[3], state[3], contacts[3], entries = -1;
+  fuge_operator *op = NULL;
+  fuge_solver *solver = new_flat(RIGID, NULL, &op);
+  CHECK_DONE(fuge_set_load(solver, 3.0));
+  CHECK_DONE(fuge_set_compliance(solver, SPRINGS));
+  CHECK_DONE(fuge_set_limits(solver, limit, NULL));
+  CHECK_DONE(fuge_follow_path(solver, &least, 3, parameter, motion, rate, point, state, contacts, &entries));
+  CHECK_INT(entries, 1);
+  CHECK_DONE(fuge_set_motion_stiffness(solver, 0, 3.0));
+  CHECK_DONE(fuge_set_resultant(solver, 0, 6.0));
+  CHECK_DONE(fuge_follow_path(solver, &most, 3, parameter, motion, rate, point, state, contacts, &entries));
+  CHECK_INT(entries, 2);
+  CHECK_INT(point[1], 1);
+  CHECK_INT(state[1], FUGE_LIMITED_LOWER);
+  CHECK_INT(contacts[1], 2);
+  CHECK_NEAR(parameter[1], 0.25, EXACT);
+  CHECK_NEAR(motion[0], 1.0, EXACT);
+  CHECK_NEAR(motion[1], 1.5, EXACT);
+  CHECK_NEAR(rate[1], 3.0, EXACT);
+  free_both(&solver, &op);
+}
+
+/* The iteration finds what the active set does, with a matrix and with products only. */
 static void test_iteration(void) {
-  int entries = -1;
   double by_set[N], force[N];
   fuge_options options;
   fuge_operator *op = NULL;
@@ -224,9 +250,6 @@ static void test_iteration(void) {
   CHECK_DONE(fuge_solve(solver));
   CHECK_DONE(fuge_get_force(solver, force));
   for (int k = 0; k < N; k++) CHECK_NEAR(force[k], by_set[k], 1e-9);
-  check_says(solver, fuge_follow_path(solver, SPRINGS, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries),
-             FUGE_ERR_UNSUPPORTED, "load path");
-  CHECK_INT(entries, -1);
   free_both(&solver, &op);
   CHECK_DONE(fuge_operator_callback(N, twice, NULL, &op, NULL, 0));
   CHECK_DONE(fuge_solver_new(op, NULL, &solver, NULL, 0));
@@ -247,6 +270,7 @@ int main(void) {
   test_states_of_the_iteration();
   test_limits_that_do_not_carry();
   test_refused();
+  test_path();
   test_iteration();
   return check_summary();
 }

@@ -16,14 +16,15 @@ module fuge_path_type
   type, public :: fuge_path
     !> Entries in use, the start included.
     integer :: entries = 0
-    !> States at the start, (n): FUGE_AT_LOWER_STOP (tied points too), FUGE_OPEN or FUGE_AT_UPPER_STOP.
+    !> States at the start, (n): FUGE_AT_LOWER_STOP (tied points too), FUGE_OPEN, FUGE_AT_UPPER_STOP, or where the force
+    !> has reached its limit FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER.
     integer, allocatable :: start(:)
     !> Parameter of each entry, ascending, 0 at the start.
     real(dp), allocatable :: parameter(:)
     !> The point that changes, 0 for the start, and its new state; or a point that touches without force, and its state,
     !> where only motions that nothing resists turn.
     integer, allocatable :: point(:), state(:)
-    !> Points at a stop from there on.
+    !> Points at a stop or at their limit from there on.
     integer, allocatable :: contacts(:)
     !> Motions q there, and dq/d(parameter) from there to the next entry, (m, entries), prescribed ones included. A
     !> motion that nothing resists may jump; the value is that after the jump. For `fuge_load_path` q is the approach
