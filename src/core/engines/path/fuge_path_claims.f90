@@ -3,7 +3,6 @@ module fuge_path_claims
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, &
     FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_point_law, only: point_law
   use fuge_problem_type, only: fuge_problem, fuge_solution
   implicit none
   private
@@ -37,6 +36,7 @@ contains
     do j = 1, size(first)
       load = first(j) + parameter*rate(j)
       noise = ROUNDING*(abs(first(j)) + (parameter + origin)*abs(rate(j)))
+      if (abs(load) <= noise) load = 0.0_dp
       if (is_prescribed(problem, j)) then
         problem%motion(j) = load
         if (abs(solution%motion(j) - load) <= noise) solution%motion(j) = load
@@ -64,22 +64,22 @@ contains
     integer, intent(in) :: state(:)
     real(dp), intent(in) :: force(:)
     real(dp) :: fraction, largest
-    type(point_law) :: law
     integer :: k
 
     fraction = 0.0_dp
     largest = maxval(abs(force))
     if (.not. largest > 0.0_dp) return
     do k = 1, size(force)
-      law = problem%law(k)
-      select case (state(k))
-      case (FUGE_OPEN)
-        fraction = max(fraction, abs(force(k))/largest)
-      case (FUGE_LIMITED_LOWER)
-        fraction = max(fraction, min(abs(force(k) - law%limit)/largest, huge(fraction)))
-      case (FUGE_LIMITED_UPPER)
-        fraction = max(fraction, min(abs(force(k) + law%limit_upper)/largest, huge(fraction)))
-      end select
+      associate (law => problem%law(k), f => force(k))
+        select case (state(k))
+        case (FUGE_OPEN)
+          fraction = max(fraction, abs(f)/largest)
+        case (FUGE_LIMITED_LOWER)
+          fraction = max(fraction, min(abs(f - law%limit)/largest, huge(fraction)))
+        case (FUGE_LIMITED_UPPER)
+          fraction = max(fraction, min(abs(f + law%limit_upper)/largest, huge(fraction)))
+        end select
+      end associate
     end do
   end function force_beside_state
 
@@ -109,32 +109,34 @@ contains
       if (allocated(problem%excluded)) then
         if (problem%excluded(k)) cycle
       end if
-      solution%gap(k) = gap_in_state(problem%law(k), state(k), solution%gap(k))
+      solution%gap(k) = gap_in_state(problem, k, state(k), solution%gap(k))
     end do
   end subroutine find_gaps
 
-  !> The gap nearest to `gap` that a point may have in its state.
-  pure function gap_in_state(law, state, gap) result(nearest)
-    type(point_law), intent(in) :: law
-    integer, intent(in) :: state
+  !> The gap nearest to `gap` that point `k` may have in its state.
+  pure function gap_in_state(problem, k, state, gap) result(nearest)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: k, state
     real(dp), intent(in) :: gap
     real(dp) :: nearest
 
-    select case (state)
-    case (FUGE_AT_LOWER_STOP)
-      nearest = 0.0_dp
-    case (FUGE_AT_UPPER_STOP)
-      nearest = law%play
-    case (FUGE_LIMITED_LOWER)
-      nearest = min(gap, 0.0_dp)
-    case (FUGE_LIMITED_UPPER)
-      nearest = max(gap, law%play)
-    case default
-      nearest = gap
-      ! A stop without force is none.
-      if (law%limit > 0.0_dp) nearest = max(nearest, 0.0_dp)
-      if (law%limit_upper > 0.0_dp) nearest = min(nearest, law%play)
-    end select
+    nearest = gap
+    associate (law => problem%law(k))
+      select case (state)
+      case (FUGE_AT_LOWER_STOP)
+        nearest = 0.0_dp
+      case (FUGE_AT_UPPER_STOP)
+        nearest = law%play
+      case (FUGE_LIMITED_LOWER)
+        nearest = min(gap, 0.0_dp)
+      case (FUGE_LIMITED_UPPER)
+        nearest = max(gap, law%play)
+      case default
+        ! A stop without force is none.
+        if (law%limit > 0.0_dp) nearest = max(nearest, 0.0_dp)
+        if (law%limit_upper > 0.0_dp) nearest = min(nearest, law%play)
+      end select
+    end associate
   end function gap_in_state
 
 end module fuge_path_claims
