@@ -221,8 +221,8 @@ contains
     self%worst_parameter = path%parameter(entry)
   end subroutine check_at
 
-  !> The forces (n) at the `fraction` of a piece. What an end would lose if its parameter were another one by rounding is
-  !> no force.
+  !> The forces (n) at the `fraction` of a piece. What an end would lose if its parameter were another one by rounding
+  !> is no force.
   pure function forces_at(self, k, fraction) result(force)
     type(path_certificate), intent(in) :: self
     integer, intent(in) :: k

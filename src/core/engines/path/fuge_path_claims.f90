@@ -70,16 +70,12 @@ contains
     largest = maxval(abs(force))
     if (.not. largest > 0.0_dp) return
     do k = 1, size(force)
-      associate (law => problem%law(k), f => force(k))
-        select case (state(k))
-        case (FUGE_OPEN)
-          fraction = max(fraction, abs(f)/largest)
-        case (FUGE_LIMITED_LOWER)
-          fraction = max(fraction, min(abs(f - law%limit)/largest, huge(fraction)))
-        case (FUGE_LIMITED_UPPER)
-          fraction = max(fraction, min(abs(f + law%limit_upper)/largest, huge(fraction)))
-        end select
-      end associate
+      select case (state(k))
+      case (FUGE_OPEN)
+        fraction = max(fraction, abs(force(k))/largest)
+      case (FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER)
+        fraction = max(fraction, min(abs(force(k) - limit_of(problem, k, state(k)))/largest, huge(fraction)))
+      end select
     end do
   end function force_beside_state
 
@@ -113,30 +109,47 @@ contains
     end do
   end subroutine find_gaps
 
+  !> The force of point `k` in a limited state.
+  pure function limit_of(problem, k, state) result(force)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: k, state
+    real(dp) :: force
+
+    associate (law => problem%law(k))
+      force = merge(law%limit, -law%limit_upper, state > 0)
+    end associate
+  end function limit_of
+
   !> The gap nearest to `gap` that point `k` may have in its state.
   pure function gap_in_state(problem, k, state, gap) result(nearest)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: k, state
     real(dp), intent(in) :: gap
     real(dp) :: nearest
+    real(dp) :: play
+    logical :: pushes, pulls
 
+    play = huge(play)
+    if (allocated(problem%gap_upper)) play = min(problem%gap_upper(k), play)
     nearest = gap
-    associate (law => problem%law(k))
-      select case (state)
-      case (FUGE_AT_LOWER_STOP)
-        nearest = 0.0_dp
-      case (FUGE_AT_UPPER_STOP)
-        nearest = law%play
-      case (FUGE_LIMITED_LOWER)
-        nearest = min(gap, 0.0_dp)
-      case (FUGE_LIMITED_UPPER)
-        nearest = max(gap, law%play)
-      case default
-        ! A stop without force is none.
-        if (law%limit > 0.0_dp) nearest = max(nearest, 0.0_dp)
-        if (law%limit_upper > 0.0_dp) nearest = min(nearest, law%play)
-      end select
-    end associate
+    select case (state)
+    case (FUGE_AT_LOWER_STOP)
+      nearest = 0.0_dp
+    case (FUGE_AT_UPPER_STOP)
+      nearest = play
+    case (FUGE_LIMITED_LOWER)
+      nearest = min(gap, 0.0_dp)
+    case (FUGE_LIMITED_UPPER)
+      nearest = max(gap, play)
+    case default
+      ! A stop without force is none.
+      pushes = .true.
+      pulls = .true.
+      if (allocated(problem%limit)) pushes = problem%limit(k) > 0.0_dp
+      if (allocated(problem%limit_upper)) pulls = problem%limit_upper(k) > 0.0_dp
+      if (pushes) nearest = max(nearest, 0.0_dp)
+      if (pulls) nearest = min(nearest, play)
+    end select
   end function gap_in_state
 
 end module fuge_path_claims
