@@ -71,10 +71,11 @@ contains
   !> a limit or leaves it. Compliances and springs on motions are those of `problem`.
   !>
   !> `operator` a fuge_dense_operator with n points; `problem` the start, in equilibrium; `finish` (m) the resultants at
-  !> the end, where prescribed the motions; out: `path`, untouched on an error; `info` as for `fuge_load_path`. A
-  !> motion that nothing resists at the start starts at first touch if the load change closes the gap. Errors: as for a
-  !> solve; FUGE_ERR_NO_EQUILIBRIUM also where equilibrium ends on the way, as where the limits carry no more: the
-  !> message gives the parameter, and a path to a smaller one is possible; FUGE_ERR_ITERATION_LIMIT after more events than 50 for each point.
+  !> the end, where prescribed the motions; out: `path`, untouched on an error; `info` as for `fuge_load_path`. A motion
+  !> that nothing resists at the start starts at first touch if the load change closes the gap. Errors: as for a solve;
+  !> FUGE_ERR_NO_EQUILIBRIUM also where equilibrium ends on the way, as where the limits carry no more: the message
+  !> gives the parameter, and a path to a smaller one is possible; FUGE_ERR_ITERATION_LIMIT after more events than 50
+  !> for each point.
   subroutine fuge_follow_path(operator, problem, finish, path, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem

@@ -11,7 +11,7 @@ module fuge_law_corners
   implicit none
   private
 
-  public :: corner_sense, corners_of_state, distance_to_corner, fixed_force, fixed_gap
+  public :: corner_sense, corners_of_state, distance_to_corner, fixed_force, fixed_gap, has_touching_only
 
   !> No step of a law has more corners than this.
   integer, parameter, public :: MOST_CORNERS = 2
@@ -20,6 +20,9 @@ module fuge_law_corners
   type, public :: law_corner
     integer :: stop_state = FUGE_OPEN, free_state = FUGE_OPEN
   end type law_corner
+
+  !> The only corner of a one-sided point without a limit. Force and gap may grow from there on, and are zero there.
+  type(law_corner), parameter, public :: TOUCHING = law_corner(FUGE_AT_LOWER_STOP, FUGE_OPEN)
 
 contains
 
@@ -57,6 +60,15 @@ contains
       if (canonical%upper(k) < huge(1.0_dp)) call add(FUGE_AT_UPPER_STOP, FUGE_OPEN, corners, number)
     end select
   end subroutine corners_of_state
+
+  !> Points (n) whose only corner is TOUCHING: most points of most problems, which need no search.
+  pure function has_touching_only(canonical) result(only)
+    type(canonical_problem), intent(in) :: canonical
+    logical :: only(size(canonical%upper))
+
+    only = canonical%upper >= huge(1.0_dp) .and. .not. canonical%excluded
+    if (canonical%has_limits()) only = only .and. canonical%limit >= huge(1.0_dp)
+  end function has_touching_only
 
   pure subroutine add(stop_state, free_state, corners, number)
     integer, intent(in) :: stop_state, free_state

@@ -8,7 +8,8 @@ module fuge_parametric_pivoting
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_states, only: is_at_stop, FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_law_corners, only: corner_sense, corners_of_state, distance_to_corner, law_corner, MOST_CORNERS
+  use fuge_law_corners, only: corner_sense, corners_of_state, distance_to_corner, has_touching_only, &
+    law_corner, MOST_CORNERS, TOUCHING
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_path_certificate, only: path_certificate
   use fuge_path_factor, only: path_factor
@@ -122,9 +123,20 @@ contains
     type(law_corner) :: corners(MOST_CORNERS)
     real(dp) :: reach(size(reached)), value, rate
     integer :: i, k, number
+    logical :: touching_only(size(reached))
 
+    touching_only = has_touching_only(canonical)
     reach = left
     do k = 1, size(reached)
+      if (touching_only(k)) then
+        if (position%weakly_active(k) /= FUGE_OPEN) cycle
+        if (position%state(k) == FUGE_OPEN) then
+          call approach(position%gap(k), position%gap_rate(k), TOUCHING, reach(k), reached(k))
+        else
+          call approach(position%force(k), position%force_rate(k), TOUCHING, reach(k), reached(k))
+        end if
+        cycle
+      end if
       call corners_of_state(canonical, k, position%state(k), corners, number)
       value = merge(position%force(k), position%gap(k), is_at_stop(position%state(k)))
       rate = merge(position%force_rate(k), position%gap_rate(k), is_at_stop(position%state(k)))

@@ -147,21 +147,23 @@ contains
   !> than the rounding of its parameter has no inside.
   !>
   !> Where the forces fall to zero at an end, they are rounding there, and nothing is left to compare them with: the
-  !> check is then made a little inside.
+  !> check is then made a little inside; nearer to the end where bodies without any force move, whose gaps are all that
+  !> is there to check.
   subroutine check_piece(self, path, k, displacement)
     type(path_certificate), intent(inout) :: self
     type(fuge_path), intent(in) :: path
     integer, intent(in) :: k
     real(dp), intent(in) :: displacement(:, :)
-    real(dp), parameter :: INSIDE = 0.0625_dp, SHORTEST = 1.0e-12_dp, VANISHING = 1.0e-3_dp
-    real(dp) :: largest(2), fraction
+    real(dp), parameter :: INSIDE = 0.0625_dp, NEAR_END = 2.0_dp**(-10), SHORTEST = 1.0e-12_dp, VANISHING = 1.0e-3_dp
+    real(dp) :: largest(2), fraction, least
 
     associate (first => self%parameter(k), last => self%parameter(k + 1))
       if (last - first <= SHORTEST*(last + self%origin)) return
       largest = maxval(abs(self%force(:, k:k + 1)), dim=1)
-      fraction = merge(INSIDE, 0.0_dp, largest(1) < VANISHING*largest(2))
+      least = merge(0.0_dp, NEAR_END, maxval(largest) > 0.0_dp)
+      fraction = merge(INSIDE, least, largest(1) < VANISHING*largest(2))
       if (fraction > 0.0_dp .or. .not. goes_on(self, path, k)) call check_at(self, path, k, fraction, displacement)
-      fraction = merge(INSIDE, 0.0_dp, largest(2) < VANISHING*largest(1))
+      fraction = merge(INSIDE, least, largest(2) < VANISHING*largest(1))
       call check_at(self, path, k, 1.0_dp - fraction, displacement)
     end associate
   end subroutine check_piece
@@ -219,8 +221,8 @@ contains
     self%worst_parameter = path%parameter(entry)
   end subroutine check_at
 
-  !> The forces (n) at the `fraction` of a piece. What an end would lose if its parameter were another one by rounding is
-  !> no force.
+  !> The forces (n) at the `fraction` of a piece. What an end would lose if its parameter were another one by rounding
+  !> is no force.
   pure function forces_at(self, k, fraction) result(force)
     type(path_certificate), intent(in) :: self
     integer, intent(in) :: k

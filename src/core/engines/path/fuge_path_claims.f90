@@ -3,7 +3,6 @@ module fuge_path_claims
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, &
     FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_point_law, only: point_law
   use fuge_problem_type, only: fuge_problem, fuge_solution
   implicit none
   private
@@ -37,6 +36,7 @@ contains
     do j = 1, size(first)
       load = first(j) + parameter*rate(j)
       noise = ROUNDING*(abs(first(j)) + (parameter + origin)*abs(rate(j)))
+      if (abs(load) <= noise) load = 0.0_dp
       if (is_prescribed(problem, j)) then
         problem%motion(j) = load
         if (abs(solution%motion(j) - load) <= noise) solution%motion(j) = load
@@ -64,21 +64,17 @@ contains
     integer, intent(in) :: state(:)
     real(dp), intent(in) :: force(:)
     real(dp) :: fraction, largest
-    type(point_law) :: law
     integer :: k
 
     fraction = 0.0_dp
     largest = maxval(abs(force))
     if (.not. largest > 0.0_dp) return
     do k = 1, size(force)
-      law = problem%law(k)
       select case (state(k))
       case (FUGE_OPEN)
         fraction = max(fraction, abs(force(k))/largest)
-      case (FUGE_LIMITED_LOWER)
-        fraction = max(fraction, min(abs(force(k) - law%limit)/largest, huge(fraction)))
-      case (FUGE_LIMITED_UPPER)
-        fraction = max(fraction, min(abs(force(k) + law%limit_upper)/largest, huge(fraction)))
+      case (FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER)
+        fraction = max(fraction, min(abs(force(k) - limit_of(problem, k, state(k)))/largest, huge(fraction)))
       end select
     end do
   end function force_beside_state
@@ -109,31 +105,50 @@ contains
       if (allocated(problem%excluded)) then
         if (problem%excluded(k)) cycle
       end if
-      solution%gap(k) = gap_in_state(problem%law(k), state(k), solution%gap(k))
+      solution%gap(k) = gap_in_state(problem, k, state(k), solution%gap(k))
     end do
   end subroutine find_gaps
 
-  !> The gap nearest to `gap` that a point may have in its state.
-  pure function gap_in_state(law, state, gap) result(nearest)
-    type(point_law), intent(in) :: law
-    integer, intent(in) :: state
+  !> The force of point `k` in a limited state.
+  pure function limit_of(problem, k, state) result(force)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: k, state
+    real(dp) :: force
+
+    associate (law => problem%law(k))
+      force = merge(law%limit, -law%limit_upper, state > 0)
+    end associate
+  end function limit_of
+
+  !> The gap nearest to `gap` that point `k` may have in its state.
+  pure function gap_in_state(problem, k, state, gap) result(nearest)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: k, state
     real(dp), intent(in) :: gap
     real(dp) :: nearest
+    real(dp) :: play
+    logical :: pushes, pulls
 
+    play = huge(play)
+    if (allocated(problem%gap_upper)) play = min(problem%gap_upper(k), play)
+    nearest = gap
     select case (state)
     case (FUGE_AT_LOWER_STOP)
       nearest = 0.0_dp
     case (FUGE_AT_UPPER_STOP)
-      nearest = law%play
+      nearest = play
     case (FUGE_LIMITED_LOWER)
       nearest = min(gap, 0.0_dp)
     case (FUGE_LIMITED_UPPER)
-      nearest = max(gap, law%play)
+      nearest = max(gap, play)
     case default
-      nearest = gap
       ! A stop without force is none.
-      if (law%limit > 0.0_dp) nearest = max(nearest, 0.0_dp)
-      if (law%limit_upper > 0.0_dp) nearest = min(nearest, law%play)
+      pushes = .true.
+      pulls = .true.
+      if (allocated(problem%limit)) pushes = problem%limit(k) > 0.0_dp
+      if (allocated(problem%limit_upper)) pulls = problem%limit_upper(k) > 0.0_dp
+      if (pushes) nearest = max(nearest, 0.0_dp)
+      if (pulls) nearest = min(nearest, play)
     end select
   end function gap_in_state
 

@@ -4,8 +4,8 @@ module fuge_path_position
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: is_at_stop, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_kinds, only: dp
-  use fuge_law_corners, only: corner_sense, corners_of_state, distance_to_corner, fixed_force, fixed_gap, law_corner, &
-    MOST_CORNERS
+  use fuge_law_corners, only: corner_sense, corners_of_state, distance_to_corner, fixed_force, fixed_gap, &
+    has_touching_only, law_corner, MOST_CORNERS, TOUCHING
   use fuge_problem_type, only: fuge_problem
   use fuge_spring_matrix, only: find_spring_motions
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
@@ -104,11 +104,21 @@ contains
     type(law_corner) :: corners(MOST_CORNERS)
     real(dp) :: largest(0:size(canonical%modes, 2)), distance, least
     integer :: i, k, number
+    logical :: touching_only(size(self%state))
 
+    touching_only = has_touching_only(canonical)
     largest = largest_forces(canonical, self%force)
     self%weakly_active = FUGE_OPEN
     self%corner = law_corner()
     do k = 1, size(self%state)
+      if (touching_only(k)) then
+        if (self%state(k) == FUGE_OPEN) then
+          if (self%gap(k) <= gap_rounding(self, canonical, line, k, step)) call self%set_corner(k, TOUCHING)
+        else
+          if (self%force(k) <= force_rounding(self, canonical, largest, k, step)) call self%set_corner(k, TOUCHING)
+        end if
+        cycle
+      end if
       call corners_of_state(canonical, k, self%state(k), corners, number)
       least = huge(least)
       do i = 1, number
@@ -175,7 +185,9 @@ contains
     integer :: k
 
     do k = 1, size(self%state)
-      if (is_at_stop(self%state(k))) then
+      if (self%state(k) == FUGE_OPEN) then
+        self%force(k) = 0.0_dp
+      else if (is_at_stop(self%state(k))) then
         self%gap(k) = fixed_gap(canonical, k, self%state(k))
       else
         self%force(k) = fixed_force(canonical, k, self%state(k))
