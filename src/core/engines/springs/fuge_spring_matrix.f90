@@ -33,7 +33,7 @@ module fuge_spring_matrix
     procedure :: clear
   end type spring_matrix
 
-  public :: extend_problem, find_spring_motions, spring_count, strip_solution
+  public :: extend_problem, find_spring_motions, needs_springs, spring_count, strip_solution
 
 contains
 
@@ -112,6 +112,15 @@ contains
 
     call operator%set_surveyed(self%alpha, self%survey, self%stamp)
   end subroutine as_operator
+
+  !> Is there any spring? Compliances of zero are none, nor are stiffnesses of zero or of prescribed motions.
+  pure function needs_springs(problem)
+    type(fuge_problem), intent(in) :: problem
+    logical :: needs_springs
+
+    needs_springs = spring_count(problem) > 0
+    if (allocated(problem%compliance)) needs_springs = needs_springs .or. any(problem%compliance > 0.0_dp)
+  end function needs_springs
 
   !> The number of free motions that have a spring.
   pure function spring_count(problem)
