@@ -16,8 +16,8 @@ module fuge_dense_engine
   use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU
   use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution
   use fuge_sensitivity, only: find_derivative
-  use fuge_spring_matrix, only: extend_problem, find_spring_motions, needs_springs, spring_count, spring_matrix, &
-    strip_solution
+  use fuge_spring_matrix, only: extend_problem, find_spring_motions, name_springs, needs_springs, spring_count, &
+    spring_matrix, strip_solution
   use fuge_spring_monitor, only: spring_monitor
   use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED
@@ -121,6 +121,7 @@ contains
       relay%listener => monitor
       relay%springs = spring_count(problem)
       call solve_with_matrix(self, with_springs, extended, options, relay, history, solution, info)
+      call name_springs(problem, info)
     end if
     call move_alloc(springs, self%springs)
     if (info%failed()) return
