@@ -16,8 +16,9 @@ module fuge_dense_engine
   use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU
   use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution
   use fuge_sensitivity, only: find_derivative
-  use fuge_spring_matrix, only: extend_problem, find_spring_motions, spring_count, spring_matrix, &
-    strip_solution
+  use fuge_spring_matrix, only: extend_problem, find_spring_motions, name_springs, needs_springs, spring_count, &
+    spring_matrix, strip_solution
+  use fuge_spring_monitor, only: spring_monitor
   use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED
   use fuge_tableau_engine, only: solve_by_tableau
@@ -65,19 +66,26 @@ contains
     type(fuge_history), intent(inout) :: history
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
+    type(fuge_problem) :: without_springs
 
     self%found_factor = .false.
     select type (operator)
     class is (fuge_dense_operator)
       self%spring_points = 0
-      self%with_springs = problem%has_springs()
+      self%with_springs = needs_springs(problem)
       if (options%keep_history .and. spring_count(problem) > 0) then
         call report(info, FUGE_ERR_UNSUPPORTED, 'the history has no columns for springs on motions: leave ' &
                     //'keep_history out, or motion_stiffness')
         return
       end if
-      if (problem%has_springs()) then
+      if (self%with_springs) then
         call solve_with_springs(self, operator, problem, options, monitor, history, solution, info)
+      else if (problem%has_springs()) then
+        ! Springs of zero only: the matrix is that of the caller.
+        if (allocated(self%springs)) deallocate (self%springs)
+        call extend_problem(problem, without_springs, info)
+        if (info%failed()) return
+        call solve_with_matrix(self, operator, without_springs, options, monitor, history, solution, info)
       else
         if (allocated(self%springs)) deallocate (self%springs)
         call solve_with_matrix(self, operator, problem, options, monitor, history, solution, info)
@@ -94,10 +102,11 @@ contains
     class(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
-    class(fuge_monitor), intent(inout) :: monitor
+    class(fuge_monitor), intent(inout), target :: monitor
     type(fuge_history), intent(inout) :: history
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
+    type(spring_monitor) :: relay
     ! Taken out of the engine, which changes while the operator points to it.
     type(spring_matrix), allocatable, target :: springs
     type(fuge_dense_operator) :: with_springs
@@ -109,7 +118,10 @@ contains
     if (.not. info%failed()) call extend_problem(problem, extended, info)
     if (.not. info%failed()) then
       call springs%as_operator(with_springs)
-      call solve_with_matrix(self, with_springs, extended, options, monitor, history, solution, info)
+      relay%listener => monitor
+      relay%springs = spring_count(problem)
+      call solve_with_matrix(self, with_springs, extended, options, relay, history, solution, info)
+      call name_springs(problem, info)
     end if
     call move_alloc(springs, self%springs)
     if (info%failed()) return

@@ -12,9 +12,9 @@ module fuge_spring_matrix
   use fuge_locks, only: new_stamp
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_OVERFLOW
+  use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_ERR_OVERFLOW, FUGE_MESSAGE_LENGTH
   implicit none
   private
 
@@ -33,7 +33,7 @@ module fuge_spring_matrix
     procedure :: clear
   end type spring_matrix
 
-  public :: extend_problem, find_spring_motions, spring_count, strip_solution
+  public :: extend_problem, find_spring_motions, name_springs, needs_springs, spring_count, strip_solution
 
 contains
 
@@ -111,6 +111,15 @@ contains
 
     call operator%set_surveyed(self%alpha, self%survey, self%stamp)
   end subroutine as_operator
+
+  !> Is there any spring? Compliances of zero are none, nor are stiffnesses of zero or of prescribed motions.
+  pure function needs_springs(problem)
+    type(fuge_problem), intent(in) :: problem
+    logical :: needs_springs
+
+    needs_springs = spring_count(problem) > 0
+    if (allocated(problem%compliance)) needs_springs = needs_springs .or. any(problem%compliance > 0.0_dp)
+  end function needs_springs
 
   !> The number of free motions that have a spring.
   pure function spring_count(problem)
@@ -233,6 +242,34 @@ contains
       end if
     end do
   end subroutine find_spring_motions
+
+  !> Where the message names the point of a spring, which the caller does not know, name the spring instead.
+  pure subroutine name_springs(problem, info)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_info), intent(inout) :: info
+    character(len=2*FUGE_MESSAGE_LENGTH) :: message
+    logical :: on_spring(problem%mode_count())
+    integer :: first, j, last, spring
+
+    if (len_trim(info%message) == 0) return
+    message = composed_message(info)
+    on_spring = has_spring(problem)
+    spring = 0
+    do j = 1, size(on_spring)
+      if (.not. on_spring(j)) cycle
+      spring = spring + 1
+      associate (point => 'point '//index_text(problem%points() + spring))
+        do
+          first = index(message, point)
+          last = first + len(point)
+          ! A larger number may begin with the same digits.
+          if (first == 0 .or. scan(message(last:last), '0123456789') > 0) exit
+          message = message(:first - 1)//'the spring of motion '//index_text(j)//message(last:)
+        end do
+      end associate
+    end do
+    call report(info, info%status, trim(message))
+  end subroutine name_springs
 
   !> Leave out the points of springs: a solution of `n` points.
   pure subroutine strip_solution(n, solution)
