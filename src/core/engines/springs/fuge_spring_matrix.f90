@@ -253,7 +253,7 @@ contains
 
     if (len_trim(info%message) == 0) return
     message = composed_message(info)
-    on_spring = has_spring(problem)
+    on_spring = problem%motions_on_springs()
     spring = 0
     do j = 1, size(on_spring)
       if (.not. on_spring(j)) cycle
