@@ -65,11 +65,11 @@ contains
 
   !> Forces to start from, `start`, solved on a window of the finest grid.
   !>
-  !> `coarse_settings` those of coarser grids, `settings` those of the finest one; `scene` one
-  !> that fits a window; `start` in: the forces on the grid that is `level` times coarser; out, if `solved`: those on the
-  !> finest grid, otherwise unchanged, because the window would be too large or the operator has none, nor that coarser
-  !> grid; `least_compliance` as in contact_iterate, unknown to a whole grid that needs no step, 0 unless `solved`.
-  !> Eleven arguments: two settings and three results. Errors: those of find_contact_set, FUGE_ERR_MEMORY.
+  !> `coarse_settings` those of coarser grids, `settings` those of the finest one; `scene` one that fits a window;
+  !> `start` in: the forces on the grid that is `level` times coarser; out, if `solved`: those on the finest grid,
+  !> otherwise unchanged, because the window would be too large or the operator has none, nor that coarser grid;
+  !> `least_compliance` as in contact_iterate, unknown to a whole grid that needs no step, 0 unless `solved`. Eleven
+  !> arguments: two settings and three results. Errors: those of find_contact_set, FUGE_ERR_MEMORY.
   subroutine solve_in_window(operator, coarse_settings, settings, scene, level, monitor, start, work, solved, &
                              least_compliance, info)
     class(fuge_operator), intent(in) :: operator
@@ -120,7 +120,8 @@ contains
     if (solved) least_compliance = compliance
   end subroutine solve_in_window
 
-  !> Do the limits of the forces in the box leave room for the load, which is 1? Where ranks share points there are none.
+  !> Do the limits of the forces in the box leave room for the load, which is 1? Where ranks share points there are
+  !> none.
   pure function carries_load(box, scene) result(carries)
     type(cell_box), intent(in) :: box
     type(contact_scene), intent(in) :: scene
