@@ -146,8 +146,13 @@ class Laws(unittest.TestCase):
             fuge.solve(ALPHA, GAP, 2.0, motion_stiffness=[1.0, 2.0])
         with self.assertRaises(fuge.EquilibriumError):
             fuge.solve(ALPHA, GAP, 2.0, limit=0.5)
-        with self.assertRaises(fuge.UnsupportedError):
-            fuge.solve(ALPHA, GAP, 2.0, compliance=0.5, method="iterative")
+
+    def test_iteration(self):
+        for law in ({"compliance": 0.5}, {"compliance": [0.5, 2.0], "motion_stiffness": 1.0}, {"limit": 1.5}):
+            by_set = fuge.solve(ALPHA, GAP, 2.0, **law)
+            by_products = fuge.solve(ALPHA, GAP, 2.0, method="iterative", **law)
+            np.testing.assert_allclose(by_products.force, by_set.force, atol=1e-8)
+            np.testing.assert_allclose(by_products.motion, by_set.motion, atol=1e-8)
 
 
 class Errors(unittest.TestCase):

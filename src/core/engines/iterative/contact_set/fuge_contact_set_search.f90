@@ -14,6 +14,7 @@ module fuge_contact_set_search
     FUGE_OPEN
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
+  use fuge_limited_descent, only: descend_within_limits
   use fuge_limited_points, only: exchange_limited_points, greatest_excess, return_deepest, set_balanced_forces, &
     step_to_limit
   use fuge_monitor_type, only: fuge_monitor
@@ -74,10 +75,11 @@ contains
     real(dp) :: previous_residual
     type(stall_counter) :: stalls
     integer :: cells(2), products, wrong
-    logical :: to_tolerance, confirmed, fresh, in_row, undetermined
+    logical :: to_tolerance, confirmed, descended, fresh, in_row, undetermined
 
     cells = operator%grid()
     in_row = all(cells > 0) .and. any(cells == 1)
+    descended = .false.
     call stalls%start(MAX_STALLS)
     previous_residual = huge(previous_residual)
     to_tolerance = .false.
@@ -124,6 +126,19 @@ contains
         if (scene%has_limits()) then
           ! Forces to start from on a finer grid are worth no exchanges of single points.
           if (settings%coarse_grid) exit
+          if (.not. descended .and. scene%fits_window()) then
+            descended = .true.
+            call set_feasible_start(operator, scene, iterate, info)
+            if (.not. info%failed()) call descend_within_limits(operator, scene, iterate, info)
+            if (info%failed()) exit
+            call choose_contact(scene, iterate)
+            call make_feasible(operator, scene, iterate, info)
+            iterate%least_compliance = 0.0_dp
+            previous_residual = huge(previous_residual)
+            fresh = .true.
+            call stalls%start(MAX_STALLS)
+            cycle
+          end if
           call exchange_single_limits(operator, settings, preconditioner, scene, monitor, iterate, info)
         else
           call exchange_single_points(operator, settings, preconditioner, scene, monitor, iterate, info)
@@ -394,7 +409,6 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: feasible(:)
-    real(dp) :: excess
     logical, allocatable :: locked(:)
     integer :: newest, stat
 
@@ -404,13 +418,7 @@ contains
     if (stat /= 0 .or. info%failed()) return
     locked = .false.
     newest = 0
-    call make_feasible(operator, scene, iterate, info)
-    ! Forces of the right resultants may be beyond their limits.
-    excess = greatest_excess(scene, iterate)
-    if ((allocated(scene%modes) .or. excess > 0.0_dp) .and. .not. info%failed()) then
-      call set_balanced_forces(scene, iterate)
-      call make_feasible(operator, scene, iterate, info)
-    end if
+    call set_feasible_start(operator, scene, iterate, info)
     do while (.not. info%failed())
       feasible = iterate%force
       call solve_on_contact_set(operator, settings, preconditioner, scene, .true., monitor, iterate, info)
@@ -429,6 +437,24 @@ contains
     if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
     if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
   end subroutine exchange_single_limits
+
+  !> Forces within their limits, with the resultants of the scene, and their displacements. Errors: those of the
+  !> operator.
+  subroutine set_feasible_start(operator, scene, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: excess
+
+    call make_feasible(operator, scene, iterate, info)
+    if (info%failed()) return
+    ! Forces of the right resultants may be beyond their limits.
+    excess = greatest_excess(scene, iterate)
+    if (.not. (allocated(scene%modes) .or. excess > 0.0_dp)) return
+    call set_balanced_forces(scene, iterate)
+    call make_feasible(operator, scene, iterate, info)
+  end subroutine set_feasible_start
 
   !> Points stay locked only if the point that joined last, which another rank may have, is locked.
   subroutine keep_lock(scene, newest, locked)
