@@ -32,8 +32,8 @@
  * FUGE_WARN_NOT_UNIQUE.  Every engine solves every problem of this form.
  *
  * Each point may have a law: limits of its force at both stops, beyond which it gives way, f = u
- * with c <= 0 and f = -l with c >= d; with a matrix also a spring of compliance D_k, (alpha + D) f
- * in place of alpha f, and a motion may have a spring, w - S q in place of w.  See
+ * with c <= 0 and f = -l with c >= d, and a spring of compliance D_k, (alpha + D) f in place of
+ * alpha f; and a motion may have a spring, w - S q in place of w.  See
  * fuge_set_compliance, fuge_set_limits and fuge_set_motion_stiffness.
  *
  * CONVENTIONS.  Matrices are column-major: alpha(i,k) is alpha[i + k*lda].  Points, rows,

@@ -59,7 +59,7 @@ contains
 
   subroutine run()
     type(verdict) :: known
-    type(joint) :: model
+    type(joint), target :: model
     integer :: file, pressures, j
 
     call create_file('gasket_load.csv', 1, file)
@@ -83,7 +83,7 @@ contains
   subroutine rigid_ring(known)
     type(verdict), intent(inout) :: known
     integer, parameter :: BOLTS = 8
-    type(joint) :: model
+    type(joint), target :: model
     type(linear_joint) :: theory
     type(fuge_solution) :: solution
     type(fuge_info) :: info
@@ -124,7 +124,7 @@ contains
   subroutine compare_beam(bolts, known)
     integer, intent(in) :: bolts
     type(verdict), intent(inout) :: known
-    type(joint) :: model
+    type(joint), target :: model
     type(fuge_solution) :: solution
     type(fuge_info) :: info
     real(dp) :: force, pitch, exact(STATIONS)
@@ -147,7 +147,7 @@ contains
 
   subroutine elastic_ring(bolts, file, pressures, model, known)
     integer, intent(in) :: bolts, file, pressures
-    type(joint), intent(out) :: model
+    type(joint), intent(out), target :: model
     type(verdict), intent(inout) :: known
     type(linear_joint) :: theory
     type(fuge_solution) :: solution
@@ -197,7 +197,7 @@ contains
 
   !> The nuts after tightening, and the thrust at which the gasket opens midway between the bolts.
   subroutine compare_opening(model, theory, known)
-    type(joint), intent(in) :: model
+    type(joint), intent(in), target :: model
     type(linear_joint), intent(in) :: theory
     type(verdict), intent(inout) :: known
     type(fuge_solution) :: solution
@@ -221,7 +221,7 @@ contains
 
   !> Bolts that yield keep their force; the thrust that all of them carry is the greatest.
   subroutine let_bolts_yield(model, file, known)
-    type(joint), intent(in) :: model
+    type(joint), intent(in), target :: model
     integer, intent(in) :: file
     type(verdict), intent(inout) :: known
     type(linear_joint) :: theory
@@ -248,11 +248,11 @@ contains
 
   !> A nut that stands off the ring carries nothing until the ring has lifted so far.
   subroutine loosen_bolt(model, known)
-    type(joint), intent(in) :: model
+    type(joint), intent(in), target :: model
     type(verdict), intent(inout) :: known
     integer, parameter :: LOOSE = STATIONS + 1
     real(dp), parameter :: SLACK = 0.05_dp
-    type(joint) :: loosened
+    type(joint), target :: loosened
     type(fuge_solution) :: solution
     type(fuge_info) :: info
     real(dp) :: exact
@@ -274,7 +274,7 @@ contains
   !> A ring of no compliance, that moves up and down only.
   function rigid_joint(bolts) result(model)
     integer, intent(in) :: bolts
-    type(joint) :: model
+    type(joint), target :: model
     integer :: n
 
     n = STATIONS + bolts
@@ -289,7 +289,7 @@ contains
   function elastic_joint(ring, bolts) result(model)
     type(flange_ring), intent(in) :: ring
     integer, intent(in) :: bolts
-    type(joint) :: model
+    type(joint), target :: model
     type(fuge_condensed) :: condensed
     type(fuge_info) :: info
     integer :: k
@@ -308,7 +308,7 @@ contains
 
   subroutine add_springs(bolts, model)
     integer, intent(in) :: bolts
-    type(joint), intent(inout) :: model
+    type(joint), intent(inout), target :: model
 
     model%bolts = bolts
     model%compliance = [spread(real(STATIONS, dp)/(2.0_dp*PI*RADIUS*FOUNDATION), 1, STATIONS), &
@@ -318,7 +318,7 @@ contains
 
   !> Turn the nuts until each bolt has its preload: from bolts stretched by far more, limited to this force.
   subroutine tighten(model, known)
-    type(joint), intent(inout) :: model
+    type(joint), intent(inout), target :: model
     type(verdict), intent(inout) :: known
     type(fuge_solution) :: solution
     type(fuge_info) :: info
@@ -335,7 +335,7 @@ contains
 
   !> What bolts at their limits have given way stays.
   subroutine stretch_bolts(model, solution)
-    type(joint), intent(inout) :: model
+    type(joint), intent(inout), target :: model
     type(fuge_solution), intent(in) :: solution
 
     model%gap(STATIONS + 1:) = model%gap(STATIONS + 1:) - max(0.0_dp, solution%gap(STATIONS + 1:))

@@ -161,8 +161,7 @@ class Solver(Owner):
     def set_compliance(self, compliance: ArrayLike | None) -> None:
         """Put a spring between the bodies at each point: a gasket, a bed, a member.
 
-        Springs need a matrix, of which the solver keeps a copy, and one of the methods
-        'active_set' and 'tableau'.
+        Every method knows them. Of a matrix the solver keeps a copy with the springs, unless the iteration solves.
 
         Parameters
         ----------
@@ -445,7 +444,7 @@ def solve(
     excluded : array_like of bool, shape of gap, optional
         Points that carry no force.
     compliance : array_like of the shape of gap, or float, optional
-        Springs at the points; length per force. They and motion_stiffness need a matrix; see
+        Springs at the points; length per force; see
         :meth:`Solver.set_compliance`.
     limit, limit_upper : array_like of the shape of gap, or float, optional
         Limits of the forces; see :meth:`Solver.set_limits`.

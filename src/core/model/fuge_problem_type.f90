@@ -244,9 +244,10 @@ contains
     if (.not. info%failed()) call check_stiffnesses(problem%compliance, n, 'compliance', info)
     if (.not. info%failed()) call check_limits(problem%limit, n, 'limit', info)
     if (.not. info%failed()) call check_limits(problem%limit_upper, n, 'limit_upper', info)
-    if (.not. info%failed()) call check_modes(problem, n, info)
+    ! Before the modes, whose load has another sign where a motion is on a spring.
     if (.not. info%failed()) call check_stiffnesses(problem%motion_stiffness, problem%mode_count(), &
                                                     'motion_stiffness', info)
+    if (.not. info%failed()) call check_modes(problem, n, info)
   end subroutine check_problem
 
   !> Check play and exclusions.

@@ -8,6 +8,7 @@ module fuge_product_engine
   use fuge_iterative_engine, only: is_general, solve_by_iteration
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
+  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution, set_problem
@@ -101,16 +102,20 @@ contains
     ! Not that of the engine, which changes while it solves.
     type(spring_operator), allocatable :: springs
     type(fuge_options) :: stricter
-    logical :: on_spring(problem%mode_count())
+    logical, dimension(problem%mode_count()) :: attached, on_spring
     real(dp), dimension(problem%mode_count()) :: carried, excess, load
-    integer :: pass
+    integer :: pass, stat
 
-    allocate (springs)
+    allocate (springs, stat=stat)
+    call require_memory(stat, 'springs', info)
+    if (stat /= 0) return
     stricter = options
     on_spring = problem%motions_on_springs()
+    attached = on_spring
     load = problem%resultants()
     do pass = 1, PASSES
-      call springs%set_springs(problem, on_spring, operator%ranks(), info)
+      attached = on_spring
+      call springs%set_springs(problem, attached, operator%ranks(), info)
       if (info%failed()) exit
       call springs%attach(operator)
       call solve_attached(self, springs, problem, load, stricter, monitor, solution, info)
@@ -118,9 +123,9 @@ contains
         ! Contact may not carry what the springs seem to leave to it.
         if (pass == 1 .or. any(info%status == [FUGE_ERR_CANCELLED, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY])) exit
         call report(info, FUGE_DONE, '')
-        on_spring = problem%motions_on_springs()
+        attached = problem%motions_on_springs()
         load = problem%resultants()
-        call springs%set_springs(problem, on_spring, operator%ranks(), info)
+        call springs%set_springs(problem, attached, operator%ranks(), info)
         if (info%failed()) exit
         call springs%attach(operator)
         call solve_attached(self, springs, problem, load, options, monitor, solution, info)
@@ -131,7 +136,7 @@ contains
       if (.not. any(excess > MUCH_FARTHER .or. abs(carried - load) > options%tolerance*abs(problem%resultants()))) then
         if (stricter%tolerance < options%tolerance .or. .not. any(excess > 1.0_dp)) exit
         ! The equations on springs have larger terms than the certificate will see.
-        stricter%tolerance = max(SAFETY*options%tolerance/maxval(excess), STRICTEST)
+        stricter%tolerance = min(max(SAFETY*options%tolerance/maxval(excess), STRICTEST), 0.5_dp*options%tolerance)
       end if
       load = merge(problem%resultants() - problem%spring_loads(solution%motion), carried, excess > MUCH_FARTHER)
       on_spring = on_spring .and. .not. excess > MUCH_FARTHER
@@ -141,7 +146,7 @@ contains
     call springs%detach()
     call move_alloc(springs, self%springs)
     self%soft = problem%stiffnesses()
-    where (on_spring) self%soft = 0.0_dp
+    where (attached) self%soft = 0.0_dp
   end subroutine solve_on_springs
 
   !> Solve on `springs`, with the resultants `load` (m).
@@ -304,6 +309,11 @@ contains
       call springs%find_motions(carried, found%force, found%motion)
       corrected = load_change - self%soft*found%motion
       if (all(abs(corrected - carried) <= self%last%tolerance*max(abs(corrected), abs(load_change)))) exit
+      if (pass == PASSES) then
+        call report(info, FUGE_ERR_ITERATION_LIMIT, 'derivatives: motions on soft springs do not settle in ' &
+                    //text(PASSES)//' solves: use a dense operator and FUGE_ACTIVE_SET')
+        return
+      end if
       carried = corrected
     end do
     call move_solution(found, change)

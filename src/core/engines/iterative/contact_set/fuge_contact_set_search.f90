@@ -41,6 +41,8 @@ module fuge_contact_set_search
   !> Block exchanges in a row without a new minimum of wrong points, before single exchanges begin; edges are
   !> extrapolated in the first half of them only.
   integer, parameter :: MAX_STALLS = 10
+  !> Limits whose sum is beyond the load by this fraction carry just the load.
+  real(dp), parameter :: NEARLY = 1.0e-8_dp
   !> Tensions up to this many units in the last place of the largest force are rounding in any case.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
 
@@ -129,7 +131,7 @@ contains
           if (.not. descended .and. scene%fits_window()) then
             descended = .true.
             call set_feasible_start(operator, scene, iterate, info)
-            if (.not. info%failed()) call descend_within_limits(operator, scene, iterate, info)
+            if (.not. info%failed()) call descend_within_limits(operator, scene, monitor, iterate, info)
             if (info%failed()) exit
             call choose_contact(scene, iterate)
             call make_feasible(operator, scene, iterate, info)
@@ -308,9 +310,12 @@ contains
     type(contact_iterate), intent(inout) :: iterate
 
     if (.not. allocated(scene%modes)) then
-      ! What is left to the last point whose force is below its limit is the load less a sum, with its rounding.
-      if (scene%has_limits() .and. .not. iterate%prescribed) iterate%tension_noise = ROUNDINGS*epsilon(1.0_dp) &
-                                                                                     *sqrt(real(scene%points(), dp))
+      if (.not. scene%has_limits() .or. iterate%prescribed) return
+      ! Where the limits carry just the load, which is 1, the last points carry what a sum leaves of it, with its
+      ! rounding.
+      if (sum(min(scene%limit, 1.0_dp)) <= 1.0_dp + NEARLY) then
+        iterate%tension_noise = ROUNDINGS*epsilon(1.0_dp)*sqrt(real(scene%points(), dp))
+      end if
       return
     end if
     iterate%tension_noise = max(tension_by_rounding(settings, scene, iterate), rounding_force(scene, iterate))

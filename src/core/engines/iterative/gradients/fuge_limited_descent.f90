@@ -8,7 +8,9 @@
 module fuge_limited_descent
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum
   use fuge_contact_scene, only: contact_scene
+  use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, require_memory
   implicit none
@@ -18,22 +20,27 @@ module fuge_limited_descent
 
   !> Steps at most, each with one product.
   integer, parameter :: STEPS = 1000
+  !> The monitor hears of every so many steps.
+  integer, parameter :: REPORTED = 10
   !> The sets are settled when at most this fraction of the points has changed its state in each of so many steps.
   real(dp), parameter :: FEW = 1.0e-4_dp
   integer, parameter :: SETTLED = 20
   !> Forces this near to zero or to their limits, as fractions of these, are there; and the error of the load after a
   !> projection, as its fraction.
   real(dp), parameter :: ROUNDING = 1.0e-12_dp, LOAD_ROUNDING = 1.0e-14_dp
+  !> Forces before a projection, below zero, as multiples of the load: none so far below gets one.
+  real(dp), parameter :: FARTHEST = 1.0e6_dp
   !> Shifts tried for a projection; bisection alone needs about half of them.
   integer, parameter :: SHIFTS = 100
 
 contains
 
   !> Lower the energy of the forces of `iterate`, feasible, with their displacements; the scene fits a window. Errors:
-  !> FUGE_ERR_MEMORY, those of the operator.
-  subroutine descend_within_limits(operator, scene, iterate, info)
+  !> FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED, those of the operator.
+  subroutine descend_within_limits(operator, scene, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
+    class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: direction(:), change(:), most(:)
@@ -54,6 +61,8 @@ contains
       if (iterate%prescribed) then
         direction = min(max(direction, 0.0_dp), most)
       else
+        ! So that sums of forces and shifts do not overflow.
+        direction = max(direction, -FARTHEST*load)
         call project_on_load(load, most, direction)
       end if
       changed = count((direction > 0.0_dp .neqv. iterate%force > 0.0_dp) .or. &
@@ -67,6 +76,8 @@ contains
       share = min(slope/curvature, 1.0_dp)
       iterate%force = iterate%force + share*direction
       iterate%displacement = iterate%displacement + share*change
+      if (mod(step, REPORTED) == 0) call tell_progress(scene, iterate, monitor, info)
+      if (info%failed()) return
       length = dot_product(direction, direction)/curvature
       quiet = merge(quiet + 1, 0, real(changed, dp) <= FEW*real(n, dp))
       if (quiet >= SETTLED) exit

@@ -101,13 +101,15 @@ contains
       self%motion(springs) = j
       self%modes(:, springs) = 1.0_dp
       if (allocated(problem%modes)) self%modes(:, springs) = problem%modes(:, j)
-      self%flexibility(springs) = 1.0_dp/problem%motion_stiffness(j)
       associate (arm => space%largest(maxval(abs(self%modes(:, springs)))), stiffness => problem%motion_stiffness(j), &
                  load => abs(problem%resultant(j)))
-        if (max(2*exponent(arm), exponent(arm) + exponent(load)) - exponent(stiffness) <= LARGEST_EXPONENT) cycle
-        call report(info, FUGE_ERR_OVERFLOW, 'motion_stiffness reaches down to '//text(stiffness) &
-                    //': choose units in which it is larger, or 0 for no spring')
-        return
+        if (max(0, exponent(load), 2*exponent(arm), exponent(arm) + exponent(load)) - exponent(stiffness) &
+            > LARGEST_EXPONENT) then
+          call report(info, FUGE_ERR_OVERFLOW, 'motion_stiffness reaches down to '//text(stiffness) &
+                      //': choose units in which it is larger, or 0 for no spring')
+          return
+        end if
+        self%flexibility(springs) = 1.0_dp/stiffness
       end associate
     end do
   end subroutine set_springs
@@ -133,7 +135,7 @@ contains
   end subroutine attach
 
   !> Forget the operator.
-  pure subroutine detach(self)
+  subroutine detach(self)
     class(spring_operator), intent(inout) :: self
 
     self%attached => null()
@@ -453,6 +455,8 @@ contains
     logical :: on_beds
     integer :: stat
 
+    if (allocated(self%beds)) deallocate (self%beds)
+    if (allocated(self%bed_of)) deallocate (self%bed_of)
     if (.not. allocated(self%compliance)) return
     elastic => self%elastic()
     if (.not. elastic%has_preconditioner()) return
@@ -470,7 +474,7 @@ contains
       if (allocated(self%bed_of)) deallocate (self%bed_of)
       call average_beds(self, space, 1)
     else if (on_beds) then
-      self%bed_of = 1 + int(log(max(self%compliance/waves(1), 1.0_dp))/log(SIMILAR))
+      self%bed_of = 1 + int(log(max(min(self%compliance, OUTWEIGHS*waves(2)), waves(1))/waves(1))/log(SIMILAR))
       where (self%compliance > OUTWEIGHS*waves(2)) self%bed_of = 0
       call average_beds(self, space, int(space%largest(real(maxval(self%bed_of), dp))))
     else
