@@ -147,7 +147,8 @@ contains
       call fail(verdict, 'estimate', text(verdict%error)//', estimated as '//text(info%force_error))
     end if
     if (info%status == FUGE_WARN_NOT_UNIQUE .or. .not. answer%resists) return
-    call compare_values('gaps', solution%gap, answer%gap, bounds%gap, info, verdict)
+    call compare_values('gaps', solution%gap, answer%gap, &
+                        bounds%gap + ROUNDING*real(maxval(abs(answer%gap)), dp), info, verdict)
     call compare_values('motions', solution%motion, answer%motion, bounds%motion, info, verdict)
   end subroutine compare
 

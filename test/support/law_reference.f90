@@ -254,10 +254,11 @@ contains
     error = problem%gap + matmul(compliance, solution%force) - matmul(modes, solution%motion) - solution%gap
     length = max(maxval(abs(problem%gap) + matmul(abs(compliance), abs(solution%force)) &
                         + matmul(abs(modes), abs(solution%motion))), tiny(length))
-    force = max(maxval(abs(solution%force)), 1.0e-4_dp*length/maxval(abs(compliance)), tiny(force))
+    force = max(maxval(abs(solution%force)), tiny(force))
+    if (maxval(abs(compliance)) > 0.0_dp) force = max(force, 1.0e-4_dp*length/maxval(abs(compliance)))
     worst = maxval(abs(error))/length
     do k = 1, size(error)
-      worst = max(worst, distance_from_law(play_of(problem, k)/length, limits_of(problem, k)/force, &
+      worst = max(worst, distance_from_law(ratio(play_of(problem, k), length), ratio(limits_of(problem, k), force), &
                                            solution%force(k)/force, solution%gap(k)/length))
     end do
     do j = 1, size(stiffness)
@@ -271,6 +272,15 @@ contains
       end if
     end do
   end function law_violation
+
+  !> a/b, or huge where it would overflow.
+  elemental function ratio(a, b)
+    real(dp), intent(in) :: a, b
+    real(dp) :: ratio
+
+    ratio = huge(ratio)
+    if (a < min(b, 1.0_dp)*huge(ratio)) ratio = a/b
+  end function ratio
 
   !> The distance of a force and a gap, both scaled, from the five steps of their law.
   pure function distance_from_law(play, limits, force, gap) result(distance)

@@ -55,6 +55,10 @@ contains
       remainder = resultant - [(dot_product(force, modes(:, j)), j=1, size(resultant))]
       if (is_in_equilibrium(modes, resultant, noise, force, remainder)) exit
       terms = [(sum(abs(force*modes(:, j))), j=1, size(terms))]
+      ! The load may be the sum of all limits but for the rounding of such a sum.
+      if (size(terms) == 1 .and. iteration == 1) then
+        if (abs(remainder(1)) <= real(size(force), dp)*epsilon(noise(1))*terms(1)) exit
+      end if
       newest = point_with_most_work(modes, remainder, ROUNDINGS*(noise + epsilon(noise)*terms), force, least, most, &
                                     basic)
       if (newest == 0) then
