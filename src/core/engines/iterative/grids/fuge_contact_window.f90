@@ -102,7 +102,7 @@ contains
     do
       if (.not. is_worthwhile(box)) return
       if (.not. carries_load(box, scene)) then
-        call widen(box)
+        call widen(box, [.true., .true.], [.true., .true.])
         cycle
       end if
       call operator%window(box%first, box%last, window)
@@ -140,14 +140,15 @@ contains
     carries = most > ROOM
   end function carries_load
 
-  !> Widen the box by half its cells on each side.
-  pure subroutine widen(box)
+  !> Widen the box by half its cells on the sides `at_first` and `at_last`, of each direction.
+  pure subroutine widen(box, at_first, at_last)
     type(cell_box), intent(inout) :: box
+    logical, intent(in) :: at_first(2), at_last(2)
     integer :: cells(2)
 
     cells = box%extent()/2 + 1
-    box%first = max(box%first - cells, 1)
-    box%last = min(box%last + cells, box%cells)
+    where (at_first) box%first = max(box%first - cells, 1)
+    where (at_last) box%last = min(box%last + cells, box%cells)
   end subroutine widen
 
   !> Number of rows of the grid that is `level` times coarser.
@@ -270,7 +271,7 @@ contains
     real(dp), intent(in), contiguous :: force(:)
     logical, intent(out) :: grown
     logical :: at_first(2), at_last(2)
-    integer :: cells(2), j, k, n(2), own(2)
+    integer :: j, k, n(2), own(2)
 
     n = box%extent()
     own = [1, n(2)]
@@ -292,9 +293,7 @@ contains
     at_first = at_first .and. box%first > 1
     at_last = at_last .and. box%last < box%cells
     grown = any(at_first .or. at_last)
-    cells = n/2 + 1
-    where (at_first) box%first = max(box%first - cells, 1)
-    where (at_last) box%last = min(box%last + cells, box%cells)
+    call widen(box, at_first, at_last)
   end subroutine grow
 
   !> `inside`: the values of `whole` in the box, where ranks share the rows of both: `fine` those of the grid, `rows`

@@ -121,8 +121,6 @@ contains
     call self%detach()
     if (allocated(self%compliance)) deallocate (self%compliance)
     if (allocated(self%modes)) deallocate (self%modes, self%flexibility, self%motion)
-    if (allocated(self%beds)) deallocate (self%beds)
-    if (allocated(self%bed_of)) deallocate (self%bed_of)
   end subroutine clear
 
   !> Let the springs stand on `operator`, which must be a target for as long as this one is used.
