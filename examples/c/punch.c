@@ -54,8 +54,8 @@ int main(void) {
     if (force[k] > 0.0) contact_edge = x[k] + 0.5 * H;
     largest = fmax(largest, force[k] / (2.0 * H));
   }
-  status = fuge_contact_edges(N, x, width, force, FUGE_CENTRE, 1, 1, NULL, &refined, NULL, NULL, NULL, &kind,
-                              &intervals, message, sizeof message);
+  status = fuge_contact_edges(N, x, width, force, NULL, NULL, FUGE_CENTRE, 1, 1, NULL, &refined, NULL, NULL, NULL,
+                              &kind, &intervals, message, sizeof message);
   if (explain(status, message) != FUGE_DONE || intervals != 1 || kind != FUGE_EDGE_REFINED) return 1;
   /* F = (3 pi/4) E* A a^4 and p(x) = E* A (2 x^2 + a^2) sqrt(a^2 - x^2). */
   double a = pow(LOAD / (0.75 * acos(-1.0) * E_STAR * PROFILE), 0.25), p0 = E_STAR * PROFILE * pow(a, 3);

@@ -167,7 +167,7 @@ def graded_cells(
 
 
 class EdgeKind(IntEnum):
-    """How well an edge of contact is known, an ``IntEnum``; all but REFINED are edges of cells."""
+    """How well an edge of contact is known, an ``IntEnum``; all but REFINED and LIMITED are edges of cells."""
 
     REFINED = HEADERS.constants["EDGE_REFINED"]
     """Extrapolated from the forces, more accurate than the grid."""
@@ -177,6 +177,8 @@ class EdgeKind(IntEnum):
     """The pressure does not fall like a square root, as under a corner."""
     GRID_END = HEADERS.constants["EDGE_GRID_END"]
     """The contact reaches the last cell of the grid."""
+    LIMITED = HEADERS.constants["EDGE_LIMITED"]
+    """The force of one of the first five cells is at its limit: estimated from the others."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,7 +204,14 @@ class ContactEdges:
 
 
 def contact_edges(
-    x: ArrayLike, width: ArrayLike, force: ArrayLike, element: Element, *, symmetric: bool = False
+    x: ArrayLike,
+    width: ArrayLike,
+    force: ArrayLike,
+    element: Element,
+    *,
+    symmetric: bool = False,
+    state: ArrayLike | None = None,
+    compliance: ArrayLike | None = None,
 ) -> ContactEdges:
     """Intervals of contact on a half-plane and their edges, from the forces.
 
@@ -221,6 +230,11 @@ def contact_edges(
         As for the matrix; 'hat' also if with 'mean' the gap is that at the centre.
     symmetric : bool
         The model of ``halfplane_matrix(.., symmetric=True)``.
+    state : array_like of int, shape (n,), optional
+        ``Contact.state``: needed where forces have limits.
+    compliance : array_like, shape (n,), or float, optional
+        Compliances of the points, length per force: needed where there are any, because on a bed the pressure may fall
+        to zero linearly instead of like a square root.
 
     Raises
     ------
@@ -238,6 +252,8 @@ def contact_edges(
         centres,
         _arrays.spread("width", width, n),
         _arrays.vector("force", force, n),
+        None if state is None else _arrays.integers("state", state, (n,)),
+        None if compliance is None else _arrays.spread("compliance", compliance, n),
         ELEMENTS.number(element),
         int(bool(symmetric)),
         n,

@@ -61,6 +61,18 @@ class Halfplane(unittest.TestCase):
         self.assertEqual(edges.left.shape, (1,))
         self.assertEqual(edges.left_kind[0], fuge.EdgeKind.REFINED)
 
+    def test_edges_with_a_law(self):
+        x = np.arange(9.0)
+        force = np.array([0, 0.2, 0.8, 1, 1, 1, 1, 0.5, 0])
+        state = np.where(force == 1, 2, np.where(force > 0, 1, 0))
+        edges = fuge.contact_edges(x, 1.0, force, "mean", state=state, compliance=3.0)
+        self.assertEqual(edges.left_kind[0], fuge.EdgeKind.LIMITED)
+        self.assertAlmostEqual(edges.right[0], 7.0 + np.sqrt(1 / 6), delta=1e-12)
+        bed = fuge.contact_edges(x, 1.0, 4.25 - np.minimum(4.25, abs(x - 4)), "mean", compliance=np.ones(9))
+        self.assertEqual(bed.left_kind[0], fuge.EdgeKind.GRID_END)
+        self.assertRaises(TypeError, fuge.contact_edges, x, 1.0, force, "mean", state=force)
+        self.assertRaises(fuge.InputError, fuge.contact_edges, x, 1.0, force, "mean", compliance=-1.0)
+
     def test_moduli(self):
         self.assertAlmostEqual(fuge.plane_modulus(210e3, 0.3), 210e3 / 0.91, delta=1e-9)
         self.assertEqual(fuge.plane_modulus(210e3, 0.3, "stress"), 210e3)

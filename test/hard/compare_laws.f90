@@ -1,18 +1,20 @@
 !> Solves random problems with laws of points by each engine, and prints where it is not right, and
-!> without a fault where its residual is above the tolerance.
+!> without a fault, but with its status, where a warning says that the answer may be wrong.
 !>
 !> compare_laws [last] [first]: problems `first` to `last`, by default 1 to 10000. With first = last it prints the
 !> problem and all answers. It ends with an error if an engine is wrong.
 program compare_laws
   use, intrinsic :: iso_fortran_env, only: output_unit
   use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_solution, FUGE_ACTIVE_SET, FUGE_ITERATIVE, &
-    FUGE_TABLEAU, FUGE_WARN_RESIDUAL
+    FUGE_TABLEAU, FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_RESIDUAL
   use general_reference, only: solve_general
+  use fuge_number_text, only: text
   use law_judge, only: judge_law, know_law, known_law, law_verdict
   use random_laws, only: draw_laws, law_scene
   implicit none
 
   integer, parameter :: METHODS(3) = [FUGE_TABLEAU, FUGE_ACTIVE_SET, FUGE_ITERATIVE]
+  integer, parameter :: DOUBTFUL(2) = [FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED]
   character(len=10), parameter :: NAMES(3) = ['tableau   ', 'active set', 'iteration ']
   !> Statuses are counted from the lowest to the highest.
   integer, parameter :: LOWEST = -30, HIGHEST = 5
@@ -45,8 +47,9 @@ contains
       do k = 1, size(METHODS)
         call judge_law(scene, known, METHODS(k), verdict)
         statuses(verdict%status, k) = statuses(verdict%status, k) + 1
-        if (verdict%fault == '' .and. verdict%status /= FUGE_WARN_RESIDUAL) cycle
+        if (verdict%fault == '' .and. all(verdict%status /= DOUBTFUL)) cycle
         if (verdict%fault /= '') faults(k) = faults(k) + 1
+        if (verdict%fault == '') verdict%details = 'status '//text(verdict%status)
         write (output_unit, '(i6,2(a,i0),8(1x,a))') number, ' n', size(scene%alpha, 1), ' m', &
           size(scene%problem%modes, 2), scene%body, scene%load, NAMES(k), verdict%fault, trim(verdict%details)
       end do

@@ -66,13 +66,17 @@ contains
     call gather(force, all_force)
     if (my_rank() == 0) call whole%set(n, 1.0_dp, 1.0_dp, info, element=element, boundary=boundary)
     allocate (expected(whole%points()), magnitude(whole%points()))
-    do k = 1, 2
+    call expect(shared%has_preconditioner_on_bed(), 'beds')
+    do k = 1, 3
       if (k == 1) then
         call shared%apply(force, displacement, status)
         if (my_rank() == 0) call whole%apply(all_force, expected, status)
-      else
+      else if (k == 2) then
         call shared%precondition(force, displacement, status)
         if (my_rank() == 0) call whole%precondition(all_force, expected, status)
+      else
+        call shared%precondition_on_bed(3.0_dp, force, displacement, status)
+        if (my_rank() == 0) call whole%precondition_on_bed(3.0_dp, all_force, expected, status)
       end if
       call expect(status == FUGE_DONE, 'a product')
       call gather(displacement, found)

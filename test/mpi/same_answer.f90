@@ -49,12 +49,15 @@ contains
     allocate (x(shared%points()), y(shared%points()), z(nx*ny), expected(nx*ny))
     call fill_gap(nx, ny, rows(1), rows(2), 1.0_dp, x)
     call fill_gap(nx, ny, 1, ny, 1.0_dp, z)
-    do k = 1, 2
+    call expect(shared%has_preconditioner_on_bed(), name//': beds')
+    do k = 1, 3
       if (k == 1) call shared%apply(x, y, status)
       if (k == 2) call shared%precondition(x, y, status)
+      if (k == 3) call shared%precondition_on_bed(3.0_dp, x, y, status)
       call expect(status == FUGE_DONE, name//': status')
       if (k == 1) call whole%apply(z, expected, status)
       if (k == 2) call whole%precondition(z, expected, status)
+      if (k == 3) call whole%precondition_on_bed(3.0_dp, z, expected, status)
       call gather(y, found)
       if (my_rank() > 0) cycle
       call expect(maxval(abs(found - expected)) <= 4.0_dp*epsilon(1.0_dp)*maxval(abs(expected)), name)

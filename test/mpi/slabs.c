@@ -73,6 +73,35 @@ static void tilt(int nx, int ny, const char *what) {
   fuge_operator_free(&whole);
 }
 
+/* A bed, and limits that are half the largest of the forces of hard contact. */
+static void follow_laws(fuge_solver *solver, double *force, int n) {
+  char message[FUGE_MESSAGE_LENGTH];
+  double largest = 0.0, load = 0.0, *law = malloc(sizeof *law * (size_t)(n + 1));
+  int k, limited = 0, status, *state = malloc(sizeof *state * (size_t)(n + 1));
+
+  for (k = 0; k < n; k++) largest = fmax(largest, force[k]);
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  for (k = 0; k < n; k++) law[k] = 0.5 * largest;
+  status = fuge_set_limits(solver, law, NULL);
+  for (k = 0; k < n; k++) law[k] = 0.1;
+  if (status == FUGE_DONE) status = fuge_set_compliance(solver, law);
+  if (status == FUGE_DONE) status = fuge_solve(solver);
+  fuge_solver_message(solver, message, sizeof message);
+  expect(status == FUGE_DONE, "laws", message);
+  fuge_get_resultant(solver, &load);
+  expect(fabs(load - 2.0) < 1e-12, "the load of limits", message);
+  fuge_get_force(solver, force);
+  fuge_get_states(solver, state);
+  for (k = 0; k < n; k++) {
+    expect(force[k] <= 0.5 * largest, "a limit", message);
+    if (state[k] == FUGE_LIMITED_LOWER) limited++;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &limited, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  expect(limited > 0, "points at their limits", message);
+  free(law);
+  free(state);
+}
+
 int main(int argc, char **argv) {
   char message[FUGE_MESSAGE_LENGTH + 1] = "", first_bytes[200];
   const char *path = "slabs_heights.npy", *forces = "slabs_forces.npy";
@@ -146,6 +175,7 @@ int main(int argc, char **argv) {
   status = fuge_mpi_write_rows(forces, op, force, message, sizeof message);
   expect(status == FUGE_DONE, "write forces", message);
   if (rank == 0) printf("contacts %d products %d approach %.12g\n", info.contacts, info.products, motion);
+  follow_laws(solver, force, NX * rows);
   fuge_solver_free(&solver);
   fuge_operator_free(&op);
 

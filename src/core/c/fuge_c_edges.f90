@@ -1,6 +1,6 @@
 !> C bindings, section "edges of contact".
 module fuge_c_edges
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_double, c_ptr, c_size_t
   use fuge_c_arrays, only: find_array, give
   use fuge_c_types, only: report_to_c, require_count, require_pointer
   use fuge_edge_refinement, only: fuge_contact_edges, fuge_interval
@@ -10,16 +10,18 @@ module fuge_c_edges
 
 contains
 
-  !> Sixteen arguments, as in the header: cells and forces, an array for each component of an interval, the message.
-  function c_contact_edges(n, x, width, force, element, symmetric, capacity, left, right, left_error, right_error, &
-                           left_kind, right_kind, number, message, length) &
+  !> Eighteen arguments, as in the header: cells, forces and their law, an array for each component of an interval, the
+  !> message.
+  function c_contact_edges(n, x, width, force, state, compliance, element, symmetric, capacity, left, right, &
+                           left_error, right_error, left_kind, right_kind, number, message, length) &
     bind(c, name='fuge_contact_edges') result(status)
     integer(c_int), intent(in), value :: n, element, symmetric, capacity
-    type(c_ptr), intent(in), value :: x, width, force, left, right, left_error, right_error, left_kind, right_kind
-    type(c_ptr), intent(in), value :: number, message
+    type(c_ptr), intent(in), value :: x, width, force, state, compliance, left, right, left_error, right_error
+    type(c_ptr), intent(in), value :: left_kind, right_kind, number, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    real(c_double), pointer :: centre(:), breadth(:), forces(:)
+    real(c_double), pointer :: centre(:), breadth(:), forces(:), compliances(:)
+    integer(c_int), pointer :: states(:)
     type(fuge_interval), allocatable :: intervals(:)
     type(fuge_info) :: info
     integer :: count
@@ -30,8 +32,12 @@ contains
     call find_array(n, width, 'width', breadth, info)
     call find_array(n, force, 'force', forces, info)
     call require_pointer(number, 'count', info)
-    if (.not. info%failed()) &
-      call fuge_contact_edges(centre, breadth, forces, int(element), intervals, info, symmetric /= 0)
+    ! Null: without states, without compliances.
+    nullify (states, compliances)
+    if (c_associated(state)) call find_array(n, state, 'state', states, info)
+    if (c_associated(compliance)) call find_array(n, compliance, 'compliance', compliances, info)
+    if (.not. info%failed()) call fuge_contact_edges(centre, breadth, forces, int(element), intervals, info, &
+                                                     symmetric /= 0, states, compliances)
     status = report_to_c(info, message, length)
     if (info%failed()) return
     count = min(size(intervals), int(capacity))

@@ -25,7 +25,7 @@ module fuge_problem_type
   implicit none
   private
 
-  public :: set_problem, check_problem, check_load, check_play, move_solution
+  public :: copy_problem, set_problem, check_problem, check_load, check_play, move_solution
 
   !> The data of a contact problem except the operator, in the units of the operator. Set the
   !> components by name: later versions may have more. A component that is not allocated has the default
@@ -69,6 +69,7 @@ module fuge_problem_type
     procedure :: spring_loads
     procedure :: stiffnesses
     procedure :: motions_on_springs
+    procedure :: arms
     procedure :: mode_count
     procedure :: is_plain
     procedure :: has_one_load
@@ -195,6 +196,19 @@ contains
     on_spring = stiffness > 0.0_dp
   end function motions_on_springs
 
+  !> The largest displacement of a point by each mode, (m), length per unit of the motion; 0 where it moves none.
+  pure function arms(self)
+    class(fuge_problem), intent(in) :: self
+    real(dp) :: arms(self%mode_count())
+    integer :: j
+
+    arms = 1.0_dp
+    if (.not. allocated(self%modes)) return
+    do j = 1, size(arms)
+      arms(j) = max(maxval(abs(self%modes(:, j))), 0.0_dp)
+    end do
+  end function arms
+
   !> The prescribed motions, zero where free, (m).
   pure function prescribed_motion(self) result(values)
     class(fuge_problem), intent(in) :: self
@@ -213,6 +227,45 @@ contains
     if (allocated(self%resultant)) values = self%resultant
     if (allocated(self%prescribed)) where (self%prescribed) values = 0.0_dp
   end function resultants
+
+  !> Copy `problem`. Error: FUGE_ERR_MEMORY.
+  pure subroutine copy_problem(problem, copy, info)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_problem), intent(out) :: copy
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    stat = 0
+    call copy_values(problem%gap, copy%gap, stat)
+    call copy_values(problem%gap_upper, copy%gap_upper, stat)
+    call copy_marks(problem%excluded, copy%excluded, stat)
+    if (allocated(problem%modes) .and. stat == 0) allocate (copy%modes, source=problem%modes, stat=stat)
+    call copy_values(problem%resultant, copy%resultant, stat)
+    call copy_marks(problem%prescribed, copy%prescribed, stat)
+    call copy_values(problem%motion, copy%motion, stat)
+    call copy_values(problem%compliance, copy%compliance, stat)
+    call copy_values(problem%limit, copy%limit, stat)
+    call copy_values(problem%limit_upper, copy%limit_upper, stat)
+    call copy_values(problem%motion_stiffness, copy%motion_stiffness, stat)
+    call require_memory(stat, 'a copy of the problem of', problem%points(), 'points', info)
+  end subroutine copy_problem
+
+  !> Copy values that there are, unless memory was short before, `stat`.
+  pure subroutine copy_values(values, copy, stat)
+    real(dp), intent(in), allocatable :: values(:)
+    real(dp), intent(inout), allocatable :: copy(:)
+    integer, intent(inout) :: stat
+
+    if (allocated(values) .and. stat == 0) allocate (copy, source=values, stat=stat)
+  end subroutine copy_values
+
+  pure subroutine copy_marks(marks, copy, stat)
+    logical, intent(in), allocatable :: marks(:)
+    logical, intent(inout), allocatable :: copy(:)
+    integer, intent(inout) :: stat
+
+    if (allocated(marks) .and. stat == 0) allocate (copy, source=marks, stat=stat)
+  end subroutine copy_marks
 
   !> The plain problem: `gap` (n), length, and one `load`, force. Error: FUGE_ERR_MEMORY.
   pure subroutine set_problem(gap, load, problem, info)

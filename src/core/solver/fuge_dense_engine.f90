@@ -13,11 +13,11 @@ module fuge_dense_engine
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_monitor_type, only: fuge_monitor
   use fuge_operator_type, only: fuge_operator
-  use fuge_options_type, only: fuge_options, FUGE_AUTO, FUGE_TABLEAU
+  use fuge_options_type, only: fuge_options, FUGE_ACTIVE_SET, FUGE_AUTO, FUGE_TABLEAU
   use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution
   use fuge_sensitivity, only: find_derivative
-  use fuge_spring_matrix, only: extend_problem, find_spring_motions, name_springs, needs_springs, spring_count, &
-    spring_matrix, strip_solution
+  use fuge_spring_matrix, only: extend_problem, find_spring_motions, name_springs, needs_springs, &
+    shift_spring_forces, spring_count, spring_matrix, strip_solution
   use fuge_spring_monitor, only: spring_monitor
   use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED
@@ -25,6 +25,9 @@ module fuge_dense_engine
   use fuge_working_set, only: working_set
   implicit none
   private
+
+  !> Forces of springs beyond this multiple of the largest force of a point are taken out, and the rest solved anew.
+  real(dp), parameter :: MUCH_MORE = 8.0_dp
 
   type, extends(contact_engine), public :: dense_engine
     private
@@ -51,6 +54,7 @@ module fuge_dense_engine
     procedure :: last_points
     procedure :: last_modes
     procedure :: derivative
+    procedure :: start_from
     procedure :: take_arrays
   end type dense_engine
 
@@ -121,14 +125,84 @@ contains
       relay%listener => monitor
       relay%springs = spring_count(problem)
       call solve_with_matrix(self, with_springs, extended, options, relay, history, solution, info)
+      if (.not. info%failed() .and. relay%springs > 0) then
+        call correct_spring_loads(self, with_springs, problem, extended, options, relay, solution, info)
+      end if
       call name_springs(problem, info)
     end if
     call move_alloc(springs, self%springs)
     if (info%failed()) return
     self%spring_points = spring_count(problem)
     call find_spring_motions(problem, extended, solution%force, solution%motion)
-    call strip_solution(problem%points(), solution)
+    call strip_solution(problem%points(), solution, info)
   end subroutine solve_with_springs
+
+  !> Where springs carry far more than the points, the rounding of their forces would be in those of the points: solve
+  !> once more for the change of the springs' forces, from the same states, under what these forces leave of the
+  !> resultants. The estimated error is made relative to the largest force of a point. A second solve that fails leaves
+  !> the first solution.
+  subroutine correct_spring_loads(self, operator, problem, extended, options, monitor, solution, info)
+    class(dense_engine), intent(inout) :: self
+    class(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem, extended
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    ! With springs on motions nothing is kept in it.
+    type(fuge_history) :: history
+    type(fuge_problem) :: shifted
+    type(fuge_options) :: by_active_set
+    type(fuge_solution) :: corrected
+    type(fuge_info) :: again
+    real(dp) :: carried(spring_count(problem))
+    integer :: n
+
+    n = problem%points()
+    carried = solution%force(n + 1:)
+    if (maxval(abs(carried)) > MUCH_MORE*maxval(abs(solution%force(:n))) &
+        .and. any(solution%state(:n) /= FUGE_OPEN)) then
+      call shift_spring_forces(operator%alpha, problem, extended, carried, shifted)
+      by_active_set = options
+      by_active_set%method = FUGE_ACTIVE_SET
+      call solve_with_matrix(self, operator, shifted, by_active_set, monitor, history, corrected, again)
+      if (again%status == FUGE_ERR_CANCELLED) then
+        info = again
+        return
+      else if (again%failed()) then
+        ! The factor and the states must be those of the solution.
+        solution = fuge_solution()
+        call solve_with_matrix(self, operator, extended, options, monitor, history, solution, info)
+        if (info%failed()) return
+      else
+        again%iterations = info%iterations + again%iterations
+        again%products = info%products + again%products
+        info = again
+        call scale_force_error(n, corrected%force, info%force_error)
+        corrected%force(n + 1:) = carried + corrected%force(n + 1:)
+        call move_solution(corrected, solution)
+        return
+      end if
+    end if
+    call scale_force_error(n, solution%force, info%force_error)
+  end subroutine correct_spring_loads
+
+  !> Make an error relative to the largest of all forces relative to the largest one of the first `n`, those of points.
+  pure subroutine scale_force_error(n, force, force_error)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: force(:)
+    real(dp), intent(inout) :: force_error
+    real(dp) :: largest, of_points
+
+    largest = maxval(abs(force))
+    of_points = maxval(abs(force(:n)))
+    if (.not. (of_points > 0.0_dp .and. largest > of_points)) return
+    if (force_error*largest < of_points) then
+      force_error = force_error*largest/of_points
+    else
+      force_error = 1.0_dp
+    end if
+  end subroutine scale_force_error
 
   subroutine solve_with_matrix(self, operator, problem, options, monitor, history, solution, info)
     class(dense_engine), intent(inout) :: self
@@ -298,8 +372,16 @@ contains
     call springs%as_operator(with_springs)
     call find_derivative(self%canonical, with_springs, self%factor, self%state, &
                          [gap_change, spread(0.0_dp, 1, self%spring_points)], load_change, change, info)
-    if (.not. info%failed()) call strip_solution(size(gap_change), change)
+    if (.not. info%failed()) call strip_solution(size(gap_change), change, info)
   end subroutine derivative_with_springs
+
+  !> Let the next solve start from these states, (n), if there were n points in the last one.
+  pure subroutine start_from(self, state)
+    class(dense_engine), intent(inout) :: self
+    integer, intent(in) :: state(:)
+
+    if (self%last_points() == size(state)) self%state(:size(state)) = state
+  end subroutine start_from
 
   !> Keep the arrays of a `solution` that the caller has had for the next solve.
   subroutine take_arrays(self, solution)

@@ -11,7 +11,7 @@ module fuge_product_engine
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
-  use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution, set_problem
+  use fuge_problem_type, only: check_load, fuge_problem, fuge_solution, move_solution, set_problem
   use fuge_point_space, only: point_space
   use fuge_set_derivative, only: find_derivative_by_products
   use fuge_spring_operator, only: spring_operator
@@ -66,18 +66,11 @@ contains
     type(fuge_history), intent(inout) :: history
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
-    type(point_space) :: space
 
     history = fuge_history()
     if (options%keep_history) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'only the tableau keeps a history, and it needs a dense operator: ' &
                   //'leave keep_history out')
-      return
-    end if
-    space = operator%ranks()
-    if (problem%has_law() .and. .not. space%is_alone()) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'ranks know no compliance, limits or springs on motions: solve on one ' &
-                  //'process')
       return
     end if
     if (allocated(self%springs)) deallocate (self%springs)
@@ -90,10 +83,10 @@ contains
 
   !> With springs, as parts of the operator. A motion on a spring so soft that the resultant would move it much farther
   !> than it gets is free instead, under the resultant less what its spring takes: a few solves find that, each with an
-  !> error that is smaller by the same factor.
+  !> error that is smaller by the same factor. Springs that are too soft for the first solve are left out of the next.
   subroutine solve_on_springs(self, operator, problem, options, monitor, solution, info)
     class(product_engine), intent(inout) :: self
-    class(fuge_operator), intent(in) :: operator
+    class(fuge_operator), intent(in), target :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_options), intent(in) :: options
     class(fuge_monitor), intent(inout) :: monitor
@@ -102,36 +95,49 @@ contains
     ! Not that of the engine, which changes while it solves.
     type(spring_operator), allocatable :: springs
     type(fuge_options) :: stricter
-    logical, dimension(problem%mode_count()) :: attached, on_spring
+    logical, dimension(problem%mode_count()) :: attached, on_spring, too_soft
     real(dp), dimension(problem%mode_count()) :: carried, excess, load
+    type(point_space) :: space
     integer :: pass, stat
 
+    space = operator%ranks()
     allocate (springs, stat=stat)
     call require_memory(stat, 'springs', info)
-    if (stat /= 0) return
+    call space%agree(info)
+    if (info%failed()) return
     stricter = options
     on_spring = problem%motions_on_springs()
     attached = on_spring
     load = problem%resultants()
     do pass = 1, PASSES
       attached = on_spring
-      call springs%set_springs(problem, attached, operator%ranks(), info)
-      if (info%failed()) exit
-      call springs%attach(operator)
-      call solve_attached(self, springs, problem, load, stricter, monitor, solution, info)
-      if (info%failed()) then
+      call springs%set_springs(problem, attached, space, info)
+      if (.not. info%failed()) then
+        call springs%attach(operator)
+        call solve_attached(self, springs, problem, load, stricter, monitor, solution, info)
+      end if
+      if (any(info%status == [FUGE_ERR_CANCELLED, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY])) exit
+      if (info%failed() .and. pass == 1) then
+        too_soft = is_beyond(problem, space)
+        if (.not. any(too_soft)) exit
+        call report(info, FUGE_DONE, '')
+        on_spring = on_spring .and. .not. too_soft
+        cycle
+      else if (info%failed()) then
         ! Contact may not carry what the springs seem to leave to it.
-        if (pass == 1 .or. any(info%status == [FUGE_ERR_CANCELLED, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY])) exit
         call report(info, FUGE_DONE, '')
         attached = problem%motions_on_springs()
         load = problem%resultants()
-        call springs%set_springs(problem, attached, operator%ranks(), info)
+        call springs%set_springs(problem, attached, space, info)
         if (info%failed()) exit
         call springs%attach(operator)
         call solve_attached(self, springs, problem, load, options, monitor, solution, info)
+        if (info%status == FUGE_ERR_OVERFLOW) call report(info, FUGE_ERR_OVERFLOW, 'motion_stiffness reaches down to ' &
+          //text(minval(problem%motion_stiffness, mask=attached))//', and contact cannot carry the load instead of ' &
+          //'the spring: choose units in which it is larger, or a dense operator and FUGE_ACTIVE_SET')
         exit
       end if
-      excess = merge(excess_motions(problem, operator%ranks(), solution), 0.0_dp, on_spring)
+      excess = merge(excess_motions(problem, space, solution), 0.0_dp, on_spring)
       carried = merge(load, problem%resultants() - problem%spring_loads(solution%motion), on_spring)
       if (.not. any(excess > MUCH_FARTHER .or. abs(carried - load) > options%tolerance*abs(problem%resultants()))) then
         if (stricter%tolerance < options%tolerance .or. .not. any(excess > 1.0_dp)) exit
@@ -161,10 +167,56 @@ contains
     type(fuge_info), intent(inout) :: info
     type(fuge_problem) :: fixed
 
-    call springs%fix_motions(problem, load, fixed)
+    call springs%fix_motions(problem, load, fixed, info)
+    ! Contact cannot pull where a soft spring was to do it.
+    if (.not. info%failed() .and. fixed%has_one_load()) call check_load(fixed%resultant(1), info)
+    if (info%failed()) return
     call solve_by_products(self, springs, fixed, options, monitor, solution, info)
     if (.not. info%failed()) call springs%find_motions(load, solution%force, solution%motion)
   end subroutine solve_attached
+
+  !> Would the resultant move this motion so far on its spring alone that the gaps are lost in the rounding, (m)?
+  function is_beyond(problem, space) result(beyond)
+    type(fuge_problem), intent(in) :: problem
+    type(point_space), intent(in) :: space
+    logical :: beyond(problem%mode_count())
+    real(dp) :: alone(problem%mode_count()), widest
+
+    alone = distances_alone(problem, space)
+    widest = space%largest(maxval(abs(problem%gap)))
+    beyond = alone > widest/epsilon(widest)
+  end function is_beyond
+
+  !> How far the resultant would move the point that each motion moves most on its spring alone, (m), length; 0 without
+  !> a spring.
+  function distances_alone(problem, space) result(alone)
+    type(fuge_problem), intent(in) :: problem
+    type(point_space), intent(in) :: space
+    real(dp) :: alone(problem%mode_count())
+    real(dp) :: arm(problem%mode_count())
+    logical :: on_spring(problem%mode_count())
+    integer :: j
+
+    on_spring = problem%motions_on_springs()
+    arm = problem%arms()
+    call space%raise(arm)
+    alone = 0.0_dp
+    do j = 1, size(alone)
+      if (.not. on_spring(j)) cycle
+      associate (most => LARGEST_EXCESS/max(arm(j), 1.0_dp), load => abs(problem%resultant(j)), &
+                 stiffness => problem%motion_stiffness(j))
+        ! The quotient could overflow.
+        if (stiffness >= 1.0_dp) then
+          alone(j) = min(load/stiffness, most)
+        else if (load < most*stiffness) then
+          alone(j) = load/stiffness
+        else
+          alone(j) = most
+        end if
+        alone(j) = min(arm(j), LARGEST_EXCESS)*alone(j)
+      end associate
+    end do
+  end function distances_alone
 
   !> How many times farther than any point gets the resultant would move each motion on its spring alone, (m).
   function excess_motions(problem, space, solution) result(excess)
@@ -172,25 +224,15 @@ contains
     type(point_space), intent(in) :: space
     type(fuge_solution), intent(in) :: solution
     real(dp) :: excess(size(solution%motion))
-    real(dp) :: arm(size(solution%motion)), farthest
-    logical :: on_spring(size(solution%motion))
-    integer :: j
+    real(dp), dimension(size(solution%motion)) :: alone, arm
+    real(dp) :: farthest
 
-    on_spring = problem%motions_on_springs()
-    arm = 1.0_dp
-    if (allocated(problem%modes)) then
-      do j = 1, size(arm)
-        arm(j) = space%largest(maxval(abs(problem%modes(:, j))))
-      end do
-    end if
+    alone = distances_alone(problem, space)
+    arm = problem%arms()
+    call space%raise(arm)
     farthest = max(space%largest(maxval(abs(solution%gap - problem%gap))), maxval(arm*abs(solution%motion)))
     excess = 0.0_dp
-    do j = 1, size(excess)
-      if (.not. on_spring(j)) cycle
-      associate (alone => arm(j)*(abs(problem%resultant(j))/problem%motion_stiffness(j)))
-        if (alone > farthest) excess(j) = min(alone/max(farthest, tiny(farthest)), LARGEST_EXCESS)
-      end associate
-    end do
+    where (alone > farthest) excess = min(alone/max(farthest, tiny(farthest)), LARGEST_EXCESS)
   end function excess_motions
 
   subroutine solve_by_products(self, operator, problem, options, monitor, solution, info)
@@ -287,18 +329,32 @@ contains
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(inout) :: info
+
+    if (allocated(self%springs)) then
+      call derivative_on_springs(self, operator, gap_change, load_change, change, info)
+    else
+      call differentiate(self, operator, gap_change, load_change, change, info)
+    end if
+  end subroutine derivative
+
+  !> With springs, as parts of the operator.
+  subroutine derivative_on_springs(self, operator, gap_change, load_change, change, info)
+    class(product_engine), intent(in) :: self
+    class(fuge_operator), intent(in), target :: operator
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(inout) :: info
     type(spring_operator), allocatable :: springs
     real(dp), dimension(size(load_change)) :: carried, corrected, fixed_change
     type(fuge_solution) :: found
+    type(point_space) :: space
     integer :: pass, stat
 
-    if (.not. allocated(self%springs)) then
-      call differentiate(self, operator, gap_change, load_change, change, info)
-      return
-    end if
     allocate (springs, source=self%springs, stat=stat)
     call require_memory(stat, 'the springs of', size(gap_change), 'points', info)
-    if (stat /= 0) return
+    space = operator%ranks()
+    call space%agree(info)
+    if (info%failed()) return
     call springs%attach(operator)
     carried = load_change
     do pass = 1, PASSES
@@ -317,7 +373,7 @@ contains
       carried = corrected
     end do
     call move_solution(found, change)
-  end subroutine derivative
+  end subroutine derivative_on_springs
 
   !> Without springs. No canonical form is kept of problems with one translation.
   subroutine differentiate(self, operator, gap_change, load_change, change, info)

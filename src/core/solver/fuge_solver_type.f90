@@ -39,6 +39,7 @@ module fuge_solver_type
     type(fuge_info), private :: last_report
   contains
     procedure :: solve
+    procedure :: start_from
     procedure :: reset
     !> For a change of one load, or of each.
     generic :: derivative => derivative_by_load, derivative_by_loads
@@ -171,6 +172,18 @@ contains
     end if
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
   end subroutine solve_and_certify
+
+  !> Start the next solve with a matrix from these states of the points, (n), as in `fuge_solution`, instead of those of
+  !> the last solve; any states are allowed, and change no solution. Without effect before the first solve with a
+  !> matrix, if there are other points now, and on the iteration, which starts from its last solutions.
+  subroutine start_from(self, state)
+    class(fuge_solver), intent(inout) :: self
+    integer, intent(in) :: state(:)
+
+    call self%by_matrix%start_from(state)
+    ! The states are no longer those of the last solution.
+    self%has_solution = self%has_solution .and. self%solved_by_products
+  end subroutine start_from
 
   !> Forget the last contact set and the history: the next solve starts from scratch. After a change of the operator
   !> that may be faster; the solution is the same.

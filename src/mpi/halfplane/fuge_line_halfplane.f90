@@ -63,6 +63,8 @@ module fuge_line_halfplane
     procedure :: datum
     procedure :: magnitude => line_magnitude
     procedure :: precondition
+    procedure :: has_preconditioner_on_bed
+    procedure :: precondition_on_bed
     procedure :: grid
     procedure :: coarsen
     procedure :: first_rows
@@ -303,6 +305,31 @@ contains
       call self%whole%inverse%convolve(self%whole%plan, displacement, force, status)
     end if
   end subroutine precondition
+
+  !> True after `set`.
+  function has_preconditioner_on_bed(self) result(preconditioned)
+    class(fuge_mpi_halfplane_operator), intent(in) :: self
+    logical :: preconditioned
+
+    preconditioned = self%has_preconditioner()
+  end function has_preconditioner_on_bed
+
+  !> As that of `fuge_halfplane_operator`, with the same `compliance` on all ranks. All ranks call it; `status` as for
+  !> `apply`.
+  subroutine precondition_on_bed(self, compliance, displacement, force, status)
+    class(fuge_mpi_halfplane_operator), intent(in) :: self
+    real(dp), intent(in) :: compliance, displacement(:)
+    real(dp), intent(out) :: force(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(displacement), size(force), status)
+    if (status /= FUGE_DONE) return
+    if (associated(self%shared)) then
+      call self%shared%inverse%convolve(self%shared%transform, displacement, force, compliance)
+    else if (associated(self%whole)) then
+      call self%whole%inverse%convolve(self%whole%plan, displacement, force, status, compliance)
+    end if
+  end subroutine precondition_on_bed
 
   !> [1, n]: rows of one cell, because ranks share rows.
   function grid(self) result(cells)

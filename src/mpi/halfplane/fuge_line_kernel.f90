@@ -23,16 +23,22 @@ module fuge_line_kernel
 
 contains
 
-  !> y = the convolution of x with the kernel; both the cells of this rank. All ranks of the transform's group call it.
-  subroutine convolve(self, transform, x, y)
+  !> y = the convolution of x with the kernel; both the cells of this rank. With `softening` >= 0 each number s of the
+  !> spectrum becomes s/(1 + softening s): to the inverse of the kernel is added `softening`. All ranks of the
+  !> transform's group call it.
+  subroutine convolve(self, transform, x, y, softening)
     class(line_kernel), intent(in) :: self
     type(line_transform), intent(in) :: transform
     real(dp), intent(in) :: x(:)
     real(dp), intent(inout) :: y(:)
+    real(dp), intent(in), optional :: softening
+    real(dp) :: scaled
 
+    scaled = 0.0_dp
+    if (present(softening)) scaled = softening*real(transform%rows, dp)*real(transform%columns, dp)
     call transform%columns_from_cells(x)
     call transform%waves_from_columns(self%twisted)
-    call transform%multiply_waves(self%spectrum)
+    call transform%multiply_waves(self%spectrum, scaled)
     call transform%columns_from_waves(self%twisted)
     call transform%cells_from_columns(y)
   end subroutine convolve

@@ -270,11 +270,12 @@ contains
     end do
   end subroutine transform_waves
 
-  !> Transform the waves' lines, multiply by the `spectrum` (m, own waves), and transform back, real and imaginary parts
-  !> exchanged.
-  subroutine multiply_waves(self, spectrum)
+  !> Transform the waves' lines, multiply by the `spectrum` s (m, own waves), or by s/(1 + softening s), and transform
+  !> back, real and imaginary parts exchanged.
+  subroutine multiply_waves(self, spectrum, softening)
     class(line_transform), intent(in) :: self
     real(dp), intent(in), contiguous :: spectrum(:, :)
+    real(dp), intent(in) :: softening
     real(c_double), pointer, contiguous :: other(:), line(:, :)
     integer :: count, first, j
 
@@ -285,7 +286,12 @@ contains
       call gather_lines(self%own_waves, self%columns, first, count, other, line)
       do j = 1, count
         call self%along_wave%transform_to(c_loc(line(1, j)), c_loc(line(1, LINES + j)))
-        call multiply_exchanging(spectrum(:, first + j - 1), line(:2*self%columns, LINES + j))
+        if (softening > 0.0_dp) then
+          call multiply_exchanging(spectrum(:, first + j - 1)/(1.0_dp + softening*spectrum(:, first + j - 1)), &
+                                   line(:2*self%columns, LINES + j))
+        else
+          call multiply_exchanging(spectrum(:, first + j - 1), line(:2*self%columns, LINES + j))
+        end if
         call self%along_wave%transform_to(c_loc(line(1, LINES + j)), c_loc(line(1, j)))
       end do
       call scatter_lines(self%own_waves, self%columns, first, count, line, other)

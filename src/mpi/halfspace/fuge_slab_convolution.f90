@@ -54,25 +54,37 @@ contains
     type(slab_plan), intent(in) :: plan
     real(dp), allocatable, intent(inout) :: spectrum(:, :)
     integer, intent(out) :: status
-    real(dp) :: circle
     integer :: k
 
     call move_alloc(spectrum, self%spectrum)
-    ! Half of each pair of rows.
-    circle = 2.0_dp*product(real(plan%plan%length, dp)*merge(2.0_dp, 1.0_dp, self%padded))
     do k = lbound(self%spectrum, 2), ubound(self%spectrum, 2)
-      self%spectrum(:, k) = self%spectrum(:, k)/circle
+      self%spectrum(:, k) = self%spectrum(:, k)/circle_factor(plan, self%padded)
     end do
     call self%exchange%set(status)
   end subroutine set
 
-  !> y = the convolution of x with the kernel; both (nx*rows), the rows of this rank. All ranks of the group call it.
-  subroutine convolve(self, plan, x, y)
+  !> What the transforms multiply by, twice, because half of each pair of rows is wanted.
+  pure function circle_factor(plan, padded) result(factor)
+    type(slab_plan), intent(in) :: plan
+    logical, intent(in) :: padded(2)
+    real(dp) :: factor
+
+    factor = 2.0_dp*product(real(plan%plan%length, dp)*merge(2.0_dp, 1.0_dp, padded))
+  end function circle_factor
+
+  !> y = the convolution of x with the kernel; both (nx*rows), the rows of this rank. With `softening` >= 0 each number
+  !> s of the spectrum becomes s/(1 + softening s), as for a `grid_kernel`. All ranks of the group call it.
+  subroutine convolve(self, plan, x, y, softening)
     class(slab_kernel), intent(inout) :: self
     type(slab_plan), intent(in) :: plan
     real(dp), intent(in) :: x(:)
     real(dp), intent(inout) :: y(:)
+    real(dp), intent(in), optional :: softening
+    real(dp) :: scaled
     integer :: first, p
+
+    scaled = 0.0_dp
+    if (present(softening)) scaled = softening*circle_factor(plan, self%padded)
 
     call self%exchange%begin_rows(plan%by_columns)
     do p = 1, plan%pairs
@@ -81,7 +93,7 @@ contains
     end do
     call self%exchange%finish()
     do first = 0, self%waves - 1, COLUMNS
-      call convolve_waves(self, plan, first, min(first + COLUMNS, self%waves) - 1, plan%lines)
+      call convolve_waves(self, plan, first, min(first + COLUMNS, self%waves) - 1, scaled, plan%lines)
     end do
     call self%exchange%return_rows(plan%by_rows, plan%by_columns)
     do p = 1, plan%pairs
@@ -202,11 +214,12 @@ contains
   end subroutine separate
 
   !> Convolve the columns of the waves `first` .. `last` of this rank, from 0; the results have real and imaginary parts
-  !> exchanged.
-  subroutine convolve_waves(kernel, plan, first, last, lines)
+  !> exchanged. `softening` is that of the spectrum as it is stored.
+  subroutine convolve_waves(kernel, plan, first, last, softening, lines)
     type(slab_kernel), intent(in) :: kernel
     type(slab_plan), intent(in) :: plan
     integer, intent(in) :: first, last
+    real(dp), intent(in) :: softening
     real(c_double), intent(inout), contiguous, target :: lines(:, :)
     real(c_double), pointer, contiguous :: table(:, :)
     integer :: k, rows, width
@@ -217,13 +230,30 @@ contains
     call gather(NUMBERS*first, width, table, lines)
     lines(2*rows + 1:2*plan%plan%length(2), :width) = 0.0_dp
     do k = 1, width
-      call convolve_line(plan%plan%columns, plan%plan%column_twist, rows, kernel%padded(2), &
-                         kernel%spectrum(:, first + k - 1), lines(:, k), lines(:, COLUMNS + 1), lines(:, COLUMNS + 2))
+      call convolve_wave(kernel, plan, first + k - 1, softening, lines(:, k), lines(:, COLUMNS + 1), &
+                         lines(:, COLUMNS + 2))
     end do
     ! The second row of a last pair without one.
     lines(2*rows + 1:NUMBERS*plan%all_pairs, :width) = 0.0_dp
     call scatter(NUMBERS*first, width, lines, table)
   end subroutine convolve_waves
+
+  !> Convolve the column `f` of wave `k` of this rank; `t` and `u` for work.
+  subroutine convolve_wave(kernel, plan, k, softening, f, t, u)
+    type(slab_kernel), intent(in) :: kernel
+    type(slab_plan), intent(in) :: plan
+    integer, intent(in) :: k
+    real(dp), intent(in) :: softening
+    real(c_double), intent(inout), contiguous, target :: f(:), t(:), u(:)
+
+    if (softening > 0.0_dp) then
+      call convolve_line(plan%plan%columns, plan%plan%column_twist, plan%plan%cells(2), kernel%padded(2), &
+                         kernel%spectrum(:, k)/(1.0_dp + softening*kernel%spectrum(:, k)), f, t, u)
+    else
+      call convolve_line(plan%plan%columns, plan%plan%column_twist, plan%plan%cells(2), kernel%padded(2), &
+                         kernel%spectrum(:, k), f, t, u)
+    end if
+  end subroutine convolve_wave
 
   !> The first `width` lines: the columns of as many waves, behind `begin` numbers in each row of `table`.
   pure subroutine gather(begin, width, table, lines)

@@ -37,6 +37,8 @@ module fuge_slab_halfspace
     procedure :: apply
     procedure :: magnitude => slab_magnitude
     procedure :: precondition
+    procedure :: has_preconditioner_on_bed
+    procedure :: precondition_on_bed
     procedure :: grid
     procedure :: coarsen
     procedure :: free_rim
@@ -219,6 +221,26 @@ contains
     call self%check_sizes(size(displacement), size(force), status)
     if (status == FUGE_DONE) call self%products%precondition(displacement, force, status)
   end subroutine precondition
+
+  !> True after `set`.
+  function has_preconditioner_on_bed(self) result(preconditioned)
+    class(fuge_mpi_halfspace_operator), intent(in) :: self
+    logical :: preconditioned
+
+    preconditioned = self%has_preconditioner()
+  end function has_preconditioner_on_bed
+
+  !> As that of `fuge_halfspace_operator`, with the same `compliance` on all ranks. All ranks call it; `status` as for
+  !> `apply`.
+  subroutine precondition_on_bed(self, compliance, displacement, force, status)
+    class(fuge_mpi_halfspace_operator), intent(in) :: self
+    real(dp), intent(in) :: compliance, displacement(:)
+    real(dp), intent(out) :: force(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(displacement), size(force), status)
+    if (status == FUGE_DONE) call self%products%precondition_on_bed(compliance, displacement, force, status)
+  end subroutine precondition_on_bed
 
   !> [nx, ny] of the whole grid.
   function grid(self) result(cells)

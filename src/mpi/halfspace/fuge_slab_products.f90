@@ -41,6 +41,7 @@ module fuge_slab_products
   contains
     procedure :: multiply
     procedure :: precondition
+    procedure :: precondition_on_bed
     procedure :: free
   end type slab_products
 
@@ -147,6 +148,21 @@ contains
       call self%whole%inverse%convolve(self%whole%plan, size(force), displacement, force, 1, status)
     end if
   end subroutine precondition
+
+  !> As `precondition`, on a bed of the `compliance`, length per force.
+  subroutine precondition_on_bed(self, compliance, displacement, force, status)
+    class(slab_products), intent(in) :: self
+    real(dp), intent(in) :: compliance, displacement(:)
+    real(dp), intent(inout) :: force(:)
+    integer, intent(out) :: status
+
+    status = FUGE_DONE
+    if (associated(self%shared)) then
+      call self%shared%inverse%convolve(self%shared%plan, displacement, force, compliance)
+    else if (associated(self%whole)) then
+      call self%whole%inverse%convolve(self%whole%plan, size(force), displacement, force, 1, status, compliance)
+    end if
+  end subroutine precondition_on_bed
 
   !> Free what they own; all ranks call it.
   subroutine free(self)

@@ -2,13 +2,15 @@
  * ranks make the same calls in the same order, with the same arguments but for arrays of points, whose n is the number
  * of points of the rank.  A solver of fuge.h solves on an operator of this header as on any other: fuge_solver_new,
  * fuge_set_gap, fuge_set_load or fuge_set_approach, fuge_solve, and the results, where fuge_get_resultant sums over the
- * ranks.  The solution is that of one process, also with modes, play, excluded points and prescribed motions, and so
- * are derivatives: arrays of points are those of the rank, loads and motions the same on all ranks.  Modes of several
- * bodies, which move no common point, are FUGE_ERR_UNSUPPORTED.
+ * ranks.  The solution is that of one process, also with modes, play, excluded points, prescribed motions, compliances,
+ * limits of forces and motions on springs, and so are derivatives: arrays of points are those of the rank; loads,
+ * motions and their stiffnesses are the same on all ranks.  Modes of several bodies, which move no common point, are
+ * FUGE_ERR_UNSUPPORTED.
  *
  * An error on one rank ends fuge_solve on all of them with the same status, and the message names the rank.  A call
  * that concerns one rank only, such as fuge_set_gap, may fail on that rank alone: let the ranks agree (MPI_Allreduce of
- * the status) before they go on.  Arrays of a rank without points may be any pointer but NULL.  The library calls
+ * the status) before they go on.  Arrays of a rank without points may be any pointer but NULL, which would mean that
+ * it has no gaps, play, compliances or limits where others have them: FUGE_ERR_OPTION.  The library calls
  * neither MPI_Init nor MPI_Abort; free solvers and operators on all ranks before MPI_Finalize. */
 #ifndef FUGE_MPI_H
 #define FUGE_MPI_H

@@ -27,8 +27,8 @@ static void test_cylinder(void) {
   fill(right, MOST);
   fill(left_error, MOST);
   fill(right_error, MOST);
-  CHECK_DONE(fuge_contact_edges(N, x, width, force, FUGE_CENTRE, 0, MOST, left, right, left_error, right_error,
-                                left_kind, right_kind, &count, message, sizeof message));
+  CHECK_DONE(fuge_contact_edges(N, x, width, force, NULL, NULL, FUGE_CENTRE, 0, MOST, left, right, left_error,
+                                right_error, left_kind, right_kind, &count, message, sizeof message));
   CHECK_INT(count, 1);
   CHECK_STRING(message, "");
   CHECK_NEAR(left[0], 0.013 - 1.0, 1e-3 * H);
@@ -51,8 +51,8 @@ static void test_kinds(void) {
   static const double force[6] = {1, 0, 2, 2, 0, 1};
   double left[MOST], right[MOST], left_error[MOST], right_error[MOST];
   int left_kind[MOST], right_kind[MOST], count = -1;
-  CHECK_DONE(fuge_contact_edges(6, x, width, force, FUGE_HAT, 1, MOST, left, right, left_error, right_error, left_kind,
-                                right_kind, &count, NULL, 0));
+  CHECK_DONE(fuge_contact_edges(6, x, width, force, NULL, NULL, FUGE_HAT, 1, MOST, left, right, left_error,
+                                right_error, left_kind, right_kind, &count, NULL, 0));
   CHECK_INT(count, 3);
   CHECK_NEAR(left[0], -1.0, 0.0);
   CHECK_NEAR(right[0], 1.0, 0.0);
@@ -64,8 +64,8 @@ static void test_kinds(void) {
   CHECK_INT(left_kind[0], FUGE_EDGE_FEW_CELLS);
   CHECK_INT(left_kind[2], FUGE_EDGE_FEW_CELLS);
   CHECK_INT(right_kind[2], FUGE_EDGE_GRID_END);
-  CHECK_DONE(fuge_contact_edges(6, x, width, force, FUGE_HAT, 0, MOST, left, right, left_error, right_error, left_kind,
-                                right_kind, &count, NULL, 0));
+  CHECK_DONE(fuge_contact_edges(6, x, width, force, NULL, NULL, FUGE_HAT, 0, MOST, left, right, left_error,
+                                right_error, left_kind, right_kind, &count, NULL, 0));
   CHECK_NEAR(left[0], 0.0, 0.0);
   CHECK_INT(left_kind[0], FUGE_EDGE_GRID_END);
 }
@@ -79,8 +79,8 @@ static void test_singular(void) {
     width[k] = 1.0;
     force[k] = k % 8 ? pow(k - 4, 2) + 1.0 : 0.0;
   }
-  CHECK_DONE(fuge_contact_edges(9, x, width, force, FUGE_CENTRE, 0, 1, &left, &right, NULL, NULL, &left_kind, NULL,
-                                &count, NULL, 0));
+  CHECK_DONE(fuge_contact_edges(9, x, width, force, NULL, NULL, FUGE_CENTRE, 0, 1, &left, &right, NULL, NULL,
+                                &left_kind, NULL, &count, NULL, 0));
   CHECK_INT(left_kind, FUGE_EDGE_SINGULAR);
   CHECK_NEAR(left, 0.5, 0.0);
   CHECK_NEAR(right, 7.5, 0.0);
@@ -89,8 +89,8 @@ static void test_singular(void) {
 /* The left edges only. */
 static int left_edges(int n, const double *x, const double *width, const double *force, int element, int capacity,
                       double *left, int *count, char *message, size_t len) {
-  return fuge_contact_edges(n, x, width, force, element, 0, capacity, left, NULL, NULL, NULL, NULL, NULL, count,
-                            message, len);
+  return fuge_contact_edges(n, x, width, force, NULL, NULL, element, 0, capacity, left, NULL, NULL, NULL, NULL, NULL,
+                            count, message, len);
 }
 
 /* Only as much as there is room for, and only what is wanted. */
@@ -105,6 +105,40 @@ static void test_capacity(void) {
   CHECK_UNTOUCHED(left + 2, 1);
   CHECK_DONE(left_edges(5, x, width, force, FUGE_MEAN, 0, NULL, &count, NULL, 0));
   CHECK_INT(count, 3);
+}
+
+/* The limit of the forces reaches up to the left edge; the right one is on a bed. */
+static void test_laws(void) {
+  static const double x[10] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, width[10] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  static const double force[10] = {0, 0.5, 1, 1, 1, 0.9, 0.7, 0.5, 0.3, 0.1}, negative[10] = {0, 0, -1};
+  static const int state[10] = {0, 1, 2, 2, 2, 1, 1, 1, 1, 1};
+  double compliance[11], cells[11], places[11], left, right, right_error;
+  int left_kind = -1, right_kind = -1, count = -1;
+  char message[256] = "";
+  for (int k = 0; k < 11; k++) {
+    compliance[k] = 7.0;
+    cells[k] = 1.0;
+    places[k] = k;
+  }
+  CHECK_DONE(fuge_contact_edges(10, x, width, force, state, NULL, FUGE_MEAN, 0, 1, &left, &right, NULL, NULL,
+                                &left_kind, &right_kind, &count, NULL, 0));
+  CHECK_INT(left_kind, FUGE_EDGE_LIMITED);
+  CHECK_INT(right_kind, FUGE_EDGE_GRID_END);
+  CHECK_NEAR(left, 1.0 - sqrt(1.0 / 6.0), 1e-12);
+  double longer[11] = {0};
+  int states[11] = {0};
+  for (int k = 0; k < 10; k++) {
+    longer[k] = force[k];
+    states[k] = state[k];
+  }
+  CHECK_DONE(fuge_contact_edges(11, places, cells, longer, states, compliance, FUGE_MEAN, 0, 1, NULL, &right, NULL,
+                                &right_error, NULL, &right_kind, &count, NULL, 0));
+  CHECK_INT(right_kind, FUGE_EDGE_REFINED);
+  CHECK_NEAR(right, 9.5, 1e-12);
+  CHECK_NEAR(right_error, 0.0, 1e-12);
+  CHECK_STATUS(fuge_contact_edges(10, x, width, force, NULL, negative, FUGE_MEAN, 0, 1, &left, NULL, NULL, NULL, NULL,
+                                  NULL, &count, message, sizeof message), FUGE_ERR_LAW);
+  CHECK_CONTAINS(message, "compliance(2)");
 }
 
 static void test_refusals(void) {
@@ -133,6 +167,7 @@ int main(void) {
   test_kinds();
   test_singular();
   test_capacity();
+  test_laws();
   test_refusals();
   return check_summary();
 }

@@ -9,6 +9,7 @@ module fuge_limited_active_set
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: is_at_stop, FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, &
     FUGE_LIMITED_UPPER, FUGE_OPEN
+  use fuge_displacements, only: displacement_magnitude_at
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
@@ -34,6 +35,22 @@ module fuge_limited_active_set
     logical :: lenient = .false.
   end type descent
 
+  !> Solutions of sets within limits, each of less energy than the one before but for rounding: one that comes again
+  !> shows that rounding leads in a circle (R. P. Brent, BIT 20, 1980, compares with one earlier state only).
+  type :: circle_watch
+    !> The states and locks that later ones are compared with, (n), and after how many solutions they are replaced.
+    integer, allocatable :: state(:)
+    logical, allocatable :: locked(:)
+    integer :: solutions = 0, replaced_after = 1, repeats = 0
+  end type circle_watch
+
+  !> A solution that comes again this many times, with the same locks, closes a circle.
+  integer, parameter :: CIRCLE = 3
+  !> In a circle, a gap beyond its stop by less than this fraction of all terms of the gap is rounding.
+  real(dp), parameter :: MOST_ROUNDING = 1.0e-12_dp
+  !> Unlike any state of a point.
+  integer, parameter :: NO_STATE = huge(1)
+
 contains
 
   !> Find the states from feasible forces. Arguments as for `run_primal_active_set`.
@@ -47,10 +64,13 @@ contains
     integer, intent(inout) :: iterations
     integer, intent(out) :: status
     type(descent) :: now
+    type(circle_watch) :: watch
     real(dp), dimension(size(solution%state)) :: least, most, previous, rounding
     logical :: outside(size(solution%state))
 
     call start_descent(canonical, solution%state, now)
+    allocate (watch%state(size(least)), source=NO_STATE)
+    allocate (watch%locked(size(least)), source=.false.)
     do
       call set%mark(canonical, solution%state)
       call factor%set(canonical, set%contact, status)
@@ -70,6 +90,10 @@ contains
         call step_to_limit(canonical, solution%force, least, most, outside, solution%state, now)
       else
         now%force = solution%force
+        call watch_for_circle(solution%state, now%locked, watch)
+        if (watch%repeats >= CIRCLE) then
+          if (lacks_only_rounding(canonical, set, solution)) return
+        end if
         call return_to_stop(canonical, set%violation, solution, now)
         if (now%newest == 0 .and. now%lenient) return
       end if
@@ -80,6 +104,44 @@ contains
       end if
     end do
   end subroutine run_limited_active_set
+
+  !> Compare the solution of a set, its states and locks (n), with an earlier one.
+  pure subroutine watch_for_circle(state, locked, watch)
+    integer, intent(in) :: state(:)
+    logical, intent(in) :: locked(:)
+    type(circle_watch), intent(inout) :: watch
+    logical :: again
+
+    again = all(state == watch%state) .and. all(locked .eqv. watch%locked)
+    if (again) watch%repeats = watch%repeats + 1
+    watch%solutions = watch%solutions + 1
+    if (watch%repeats > 0 .or. watch%solutions < watch%replaced_after) return
+    watch%state = state
+    watch%locked = locked
+    watch%solutions = 0
+    watch%replaced_after = 2*watch%replaced_after
+  end subroutine watch_for_circle
+
+  !> Are all gaps on the right side of their stops but for the rounding of their terms? The violations of `set` compare
+  !> them with what is left where initial gaps and motions cancel.
+  pure function lacks_only_rounding(canonical, set, solution) result(only)
+    type(canonical_problem), intent(in) :: canonical
+    type(working_set), intent(in) :: set
+    type(contact_solution), intent(in) :: solution
+    logical :: only
+    real(dp) :: terms
+    integer :: k
+
+    only = .true.
+    do k = 1, size(solution%state)
+      if (set%contact(k) .or. canonical%excluded(k) .or. set%violation(k) <= SIGN_TOLERANCE) cycle
+      terms = abs(set%reduced_gap(k)) + sum(abs(canonical%modes(k, :)*solution%motion)) &
+              + displacement_magnitude_at(canonical%alpha, canonical%datum, abs(solution%force) > 0.0_dp, &
+                                          solution%force, k)
+      only = -canonical%slack(k, solution%state(k), solution%gap(k)) <= MOST_ROUNDING*terms
+      if (.not. only) return
+    end do
+  end function lacks_only_rounding
 
   !> Start from the forces that are known to be in equilibrium, with the states (n) that belong to them.
   pure subroutine start_descent(canonical, state, now)

@@ -41,6 +41,8 @@ module fuge_canonical_problem
     logical :: has_translation = .false.
     !> Forces at few points that are in equilibrium with the load, (n); not allocated if plain.
     real(dp), allocatable :: feasible_force(:)
+    !> The motion in the free given modes that proves that there are none, (m); not allocated if there are.
+    real(dp), allocatable :: unbalanced(:)
     !> The paper's problem: one translation, one-sided, all points.
     logical :: plain = .false.
     !> Number of the body of each point, (n), 0 for a point that no mode moves; not allocated for one body.
@@ -251,6 +253,7 @@ contains
       if (info%failed()) return
     end do
     if (any(abs(remainder) > 0.0_dp)) then
+      canonical%unbalanced = canonical%change%given_motion(remainder)
       call report_no_equilibrium(problem, canonical%free, canonical%change, canonical%excluded, &
                                  any(canonical%upper < huge(1.0_dp) .and. .not. canonical%excluded), remainder, &
                                  canonical%space, info)
@@ -300,7 +303,7 @@ contains
     noise = max(rounding(columns), epsilon(noise)*maxval(abs(canonical%load(columns))))
     if (canonical%has_limits()) then
       call find_limited_equilibrium(modes, canonical%load(columns), merge(-canonical%limit_upper, 0.0_dp, pulls), &
-                                    merge(canonical%limit, 0.0_dp, pushes), noise, force, rest)
+                                    merge(canonical%limit, 0.0_dp, pushes), noise, force, rest, canonical%space)
     else
       call find_shared_equilibrium(canonical%space, modes, canonical%load(columns), pushes, pulls, force, rest, noise)
     end if

@@ -12,7 +12,7 @@ module fuge_equilibrium
   implicit none
   private
 
-  public :: find_equilibrium, find_newest, is_in_equilibrium, is_negligible, proves_no_equilibrium
+  public :: find_equilibrium, find_newest, is_in_equilibrium, is_negligible, is_rounding, proves_no_equilibrium
 
   !> A point whose work is below this fraction of the largest possible one does not close along the remainder. A
   !> remainder below this fraction of a resultant, or of its terms, may be the rounding of the data that the resultant
@@ -22,6 +22,9 @@ module fuge_equilibrium
   real(dp), parameter :: ROUNDINGS = 64.0_dp
   !> A closing displacement below this fraction of its terms counts as zero.
   real(dp), parameter :: PROOF = 1.0e-10_dp
+  !> A closing displacement above this fraction of its terms does not count as rounding, since a remainder is well above
+  !> its own.
+  real(dp), parameter :: CLEAR = 0.1_dp
   !> Points whose rows of the modes agree to this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-13_dp
   !> Points whose work is computed together, so that no array of all points is needed.
@@ -137,11 +140,22 @@ contains
     real(dp) :: least
 
     work = matmul(modes, remainder)
-    least = max(NEGLIGIBLE*maxval(abs(remainder)), ROUNDINGS*maxval(rest))
+    least = rounding_share(NEGLIGIBLE, rest, remainder)
     where (abs(work) <= least*sum(abs(modes), dim=2)) work = 0.0_dp
     where (.not. pulls) work = max(work, 0.0_dp)
     where (.not. pushes) work = min(work, 0.0_dp)
   end function closing_work
+
+  !> Work along the `motion` (m) below this multiple of the sizes in a row of the modes is rounding: of the motion by
+  !> `noise` (m), or this `fraction` of the largest possible work.
+  pure function rounding_share(fraction, noise, motion) result(share)
+    real(dp), intent(in) :: fraction, noise(:), motion(:)
+    real(dp) :: share
+    real(dp) :: largest
+
+    largest = maxval(abs(motion))
+    share = max(fraction*largest, min(ROUNDINGS*maxval(noise), CLEAR*largest))
+  end function rounding_share
 
   !> Is the remainder of each resultant no more than rounding of it and of its terms?
   pure function is_in_equilibrium(modes, resultant, noise, force, remainder) result(balanced)
@@ -149,13 +163,22 @@ contains
     logical :: balanced
     integer :: j
 
-    balanced = .true.
+    balanced = is_rounding(remainder, resultant, noise, [(sum(abs(modes(:, j)*force)), j=1, size(resultant))])
+  end function is_in_equilibrium
+
+  !> The same of `terms` (m), the sums of the sizes of what the forces contribute to each resultant.
+  pure function is_rounding(remainder, resultant, noise, terms)
+    real(dp), intent(in) :: remainder(:), resultant(:), noise(:), terms(:)
+    logical :: is_rounding
+    integer :: j
+
+    is_rounding = .true.
     do j = 1, size(resultant)
       ! Where one resultant is rounded by more, least squares spread that over all.
-      balanced = balanced .and. abs(remainder(j)) <= ROUNDINGS*max(maxval(noise), epsilon(noise)*abs(resultant(j)), &
-                                                                   epsilon(noise)*sum(abs(modes(:, j)*force)))
+      is_rounding = is_rounding .and. abs(remainder(j)) <= ROUNDINGS*max(maxval(noise), epsilon(noise) &
+                                                                         *max(abs(resultant(j)), terms(j)))
     end do
-  end function is_in_equilibrium
+  end function is_rounding
 
   !> Is what no point can carry of each resultant a fraction of it, or of its `terms` (m), that proves nothing?
   pure function is_negligible(remainder, resultant, terms) result(proves_nothing)
@@ -174,7 +197,7 @@ contains
     integer :: k
 
     ! The motion is a difference of resultants and carries their rounding.
-    smallest = max(PROOF*maxval(abs(motion)), ROUNDINGS*maxval(noise))
+    smallest = rounding_share(PROOF, noise, motion)
     ! The resultants do the work |motion|**2, of which a sum of terms as large as these would leave rounding.
     proves = any(abs(motion) > ROUNDINGS*noise)
     do k = 1, size(modes, 1)

@@ -8,6 +8,7 @@
 module fuge_load_sharing
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgesv
+  use fuge_point_space, only: point_space
   implicit none
   private
 
@@ -34,9 +35,10 @@ contains
 
   !> Forces (n) within `least` <= 0 and `most` >= 0 (n), huge without a limit, for which R^T f comes as near to the
   !> `resultant` (m) as rounding lets it, or nearly as near as the limits let it. `modes` R (n, m) with columns of about
-  !> the same size.
-  subroutine share_load(modes, resultant, least, most, force)
+  !> the same size. `space` may share the points: then all ranks call it.
+  subroutine share_load(modes, resultant, least, most, space, force)
     real(dp), intent(in), contiguous :: modes(:, :), resultant(:), least(:), most(:)
+    type(point_space), intent(in) :: space
     real(dp), intent(out), contiguous :: force(:)
     real(dp), allocatable :: weight(:)
     type(motion_state) :: now
@@ -47,14 +49,14 @@ contains
     if (.not. any(abs(resultant) > 0.0_dp)) return
     ! Without memory the search begins with no forces.
     allocate (weight(size(force)), stat=stat)
-    if (stat /= 0) return
+    if (.not. space%everywhere(stat == 0)) return
     ! A point carries a share of its limit, but without one no more than the load.
     weight = min(max(most, -least), maxval(abs(resultant)))
-    largest = stiffness(modes, weight)/real(size(resultant), dp)
+    largest = space%total(stiffness(modes, weight))/real(size(resultant), dp)
     if (.not. largest > 0.0_dp) return
     do repetition = 1, size(RESISTANCES)
       resistance = RESISTANCES(repetition)*largest
-      call find_motion(modes, resultant, least, most, weight, force, resistance, now)
+      call find_motion(modes, resultant, least, most, weight, force, resistance, space, now)
       call set_forces(modes, least, most, weight, now%motion, force)
       if (all(abs(resistance*now%motion) <= ROUNDINGS*epsilon(resistance)*now%terms)) return
     end do
@@ -74,10 +76,11 @@ contains
     end do
   end function stiffness
 
-  !> The motion from the forces `start` (n) on. The arguments are eight.
-  subroutine find_motion(modes, resultant, least, most, weight, start, resistance, now)
+  !> The motion from the forces `start` (n) on. The arguments are those of `evaluate`.
+  subroutine find_motion(modes, resultant, least, most, weight, start, resistance, space, now)
     real(dp), intent(in), contiguous :: modes(:, :), resultant(:), least(:), most(:), weight(:), start(:)
     real(dp), intent(in) :: resistance
+    type(point_space), intent(in) :: space
     type(motion_state), intent(out) :: now
     real(dp) :: step(size(resultant)), system(size(resultant), size(resultant))
     integer :: iteration, m, pivots(size(resultant)), info
@@ -86,23 +89,24 @@ contains
     m = size(resultant)
     allocate (now%motion(m), now%gradient(m), now%terms(m), now%hessian(m, m))
     now%motion = 0.0_dp
-    call evaluate(modes, resultant, least, most, weight, start, resistance, now)
+    call evaluate(modes, resultant, least, most, weight, start, resistance, space, now)
     do iteration = 1, MOST_STEPS
       if (all(abs(now%gradient) <= ROUNDINGS*epsilon(resistance)*now%terms)) return
       system = now%hessian
       step = -now%gradient
       call dgesv(m, 1, system, m, pivots, step, m, info)
       if (info /= 0) return
-      call search_along(modes, resultant, least, most, weight, start, resistance, step, now, is_found)
+      call search_along(modes, resultant, least, most, weight, start, resistance, space, step, now, is_found)
       if (.not. is_found) return
     end do
   end subroutine find_motion
 
   !> Go along the step until the slope has become small, if such a motion `is_found`: the slope only rises, because the
-  !> function is convex. The arguments are ten: those of `evaluate`, the step and the answer.
-  pure subroutine search_along(modes, resultant, least, most, weight, start, resistance, step, now, is_found)
+  !> function is convex. The arguments are eleven: those of `evaluate`, the step and the answer.
+  subroutine search_along(modes, resultant, least, most, weight, start, resistance, space, step, now, is_found)
     real(dp), intent(in), contiguous :: modes(:, :), resultant(:), least(:), most(:), weight(:), start(:)
     real(dp), intent(in) :: resistance, step(:)
+    type(point_space), intent(in) :: space
     type(motion_state), intent(inout) :: now
     logical, intent(out) :: is_found
     real(dp) :: before(size(step)), first, slope, low, high, slope_low, slope_high, fraction
@@ -117,7 +121,7 @@ contains
     fraction = 1.0_dp
     do trial = 1, MOST_TRIALS
       now%motion = before + fraction*step
-      call evaluate(modes, resultant, least, most, weight, start, resistance, now)
+      call evaluate(modes, resultant, least, most, weight, start, resistance, space, now)
       slope = dot_product(now%gradient, step)
       is_found = slope <= FLAT*abs(first) .and. (trial == 1 .or. slope >= -FLAT*abs(first))
       if (is_found) return
@@ -132,18 +136,23 @@ contains
     end do
   end subroutine search_along
 
-  !> Gradient and its derivative at a motion. The arguments are eight: the problem and the search.
-  pure subroutine evaluate(modes, resultant, least, most, weight, start, resistance, now)
+  !> Gradient and its derivative at a motion. The arguments are nine: the problem and the search.
+  subroutine evaluate(modes, resultant, least, most, weight, start, resistance, space, now)
     real(dp), intent(in), contiguous :: modes(:, :), resultant(:), least(:), most(:), weight(:), start(:)
     real(dp), intent(in) :: resistance
+    type(point_space), intent(in) :: space
     type(motion_state), intent(inout) :: now
     real(dp) :: force, displacement
     integer :: i, j, k, m
 
     m = size(resultant)
-    now%gradient = resistance*now%motion - resultant
-    now%terms = abs(resistance*now%motion) + abs(resultant)
+    now%gradient = 0.0_dp
+    now%terms = 0.0_dp
     now%hessian = 0.0_dp
+    if (space%number() == 0) then
+      now%gradient = resistance*now%motion - resultant
+      now%terms = abs(resistance*now%motion) + abs(resultant)
+    end if
     do k = 1, size(start)
       displacement = 0.0_dp
       do j = 1, m
@@ -164,11 +173,28 @@ contains
         now%terms(j) = now%terms(j) + abs(modes(k, j)*force)
       end do
     end do
+    call add_states(space, now)
     do j = 1, m
       now%hessian(j, j:) = now%hessian(j:, j)
       now%hessian(j, j) = now%hessian(j, j) + resistance
     end do
   end subroutine evaluate
+
+  !> The sums over the ranks.
+  subroutine add_states(space, now)
+    type(point_space), intent(in) :: space
+    type(motion_state), intent(inout) :: now
+    real(dp) :: sums(size(now%gradient)*(2 + size(now%gradient)))
+
+    if (space%is_alone()) return
+    associate (m => size(now%gradient))
+      sums = [now%gradient, now%terms, now%hessian]
+      call space%add(sums)
+      now%gradient = sums(:m)
+      now%terms = sums(m + 1:2*m)
+      now%hessian = reshape(sums(2*m + 1:), [m, m])
+    end associate
+  end subroutine add_states
 
   !> The forces (n) that follow from a motion, from those on entry.
   pure subroutine set_forces(modes, least, most, weight, motion, force)

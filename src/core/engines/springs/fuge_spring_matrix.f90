@@ -7,13 +7,14 @@
 module fuge_spring_matrix
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
   use, intrinsic :: iso_c_binding, only: c_long_long
+  use fuge_compensated_sums, only: compensated_dot
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_kinds, only: dp
   use fuge_locks, only: new_stamp
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
   use fuge_number_text, only: index_text, text
-  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_problem_type, only: copy_problem, fuge_problem, fuge_solution
   use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_ERR_OVERFLOW, FUGE_MESSAGE_LENGTH
   implicit none
   private
@@ -33,7 +34,8 @@ module fuge_spring_matrix
     procedure :: clear
   end type spring_matrix
 
-  public :: extend_problem, find_spring_motions, name_springs, needs_springs, spring_count, strip_solution
+  public :: extend_problem, find_spring_motions, name_springs, needs_springs, shift_spring_forces, spring_count, &
+    strip_solution
 
 contains
 
@@ -142,10 +144,8 @@ contains
     type(fuge_problem), intent(in) :: problem
     real(dp) :: arm(spring_count(problem))
     real(dp) :: largest(problem%mode_count())
-    integer :: j
 
-    largest = 1.0_dp
-    if (allocated(problem%modes)) largest = [(maxval(abs(problem%modes(:, j))), j=1, size(largest))]
+    largest = problem%arms()
     where (.not. largest > 0.0_dp) largest = 1.0_dp
     arm = pack(largest, problem%motions_on_springs())
   end function spring_arms
@@ -167,8 +167,8 @@ contains
     arm = spring_arms(problem)
     springs = spring_count(problem)
     infinity = ieee_value(1.0_dp, ieee_positive_inf)
-    extended = problem
-    deallocate (extended%gap)
+    call copy_problem(problem, extended, info)
+    if (info%failed()) return
     if (allocated(extended%compliance)) deallocate (extended%compliance)
     if (allocated(extended%motion_stiffness)) deallocate (extended%motion_stiffness)
     call append(problem%gap, n, springs, 0.0_dp, 0.0_dp, extended%gap, stat)
@@ -181,7 +181,10 @@ contains
         call append(problem%limit_upper, n, springs, infinity, infinity, extended%limit_upper, stat)
       end if
       if (stat == 0 .and. allocated(problem%excluded)) then
-        extended%excluded = [problem%excluded, spread(.false., 1, springs)]
+        deallocate (extended%excluded)
+        allocate (extended%excluded(n + springs), stat=stat)
+        if (stat == 0) extended%excluded(:n) = problem%excluded
+        if (stat == 0) extended%excluded(n + 1:) = .false.
       end if
       if (allocated(extended%modes)) deallocate (extended%modes)
       if (stat == 0) allocate (extended%modes(n + springs, m), stat=stat)
@@ -214,6 +217,28 @@ contains
     if (allocated(values)) longer(:n) = values
     longer(n + 1:) = value
   end subroutine append
+
+  !> The problem `extended` for the forces that the springs have beyond `carried` (springs): what is carried already
+  !> displaces the points of the springs, and is no load. The load that is left has digits of its own, also where it is
+  !> the small difference of two large ones.
+  pure subroutine shift_spring_forces(alpha, problem, extended, carried, shifted)
+    real(dp), intent(in) :: alpha(:, :), carried(:)
+    type(fuge_problem), intent(in) :: problem, extended
+    type(fuge_problem), intent(out) :: shifted
+    logical :: on_spring(problem%mode_count())
+    integer :: j, point
+
+    shifted = extended
+    on_spring = problem%motions_on_springs()
+    point = problem%points()
+    do j = 1, size(on_spring)
+      if (.not. on_spring(j)) cycle
+      point = point + 1
+      shifted%gap(point) = alpha(point, point)*carried(point - problem%points())
+      shifted%resultant(j) = compensated_dot(extended%resultant(j), extended%modes(point:point, j), &
+                                             carried(point - problem%points():point - problem%points()))
+    end do
+  end subroutine shift_spring_forces
 
   !> The motions on springs from the forces of these, where that has less rounding: of the largest force, instead of the
   !> largest displacement by any motion. `force` (n + springs) and `motion` (m) are those of the problem `extended`.
@@ -259,11 +284,13 @@ contains
       if (.not. on_spring(j)) cycle
       spring = spring + 1
       associate (point => 'point '//index_text(problem%points() + spring))
+        last = 1
         do
-          first = index(message, point)
+          first = last - 1 + index(message(last:), point)
+          if (first < last) exit
           last = first + len(point)
           ! A larger number may begin with the same digits.
-          if (first == 0 .or. scan(message(last:last), '0123456789') > 0) exit
+          if (scan(message(last:last), '0123456789') > 0) cycle
           message = message(:first - 1)//'the spring of motion '//index_text(j)//message(last:)
         end do
       end associate
@@ -271,15 +298,34 @@ contains
     call report(info, info%status, trim(message))
   end subroutine name_springs
 
-  !> Leave out the points of springs: a solution of `n` points.
-  pure subroutine strip_solution(n, solution)
+  !> Leave out the points of springs: a solution of `n` points. Error: FUGE_ERR_MEMORY.
+  pure subroutine strip_solution(n, solution, info)
     integer, intent(in) :: n
     type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    integer, allocatable :: state(:)
+    integer :: stat
 
     if (size(solution%force) == n) return
-    solution%force = solution%force(:n)
-    solution%gap = solution%gap(:n)
-    if (allocated(solution%state)) solution%state = solution%state(:n)
+    call strip_values(n, solution%force, info)
+    call strip_values(n, solution%gap, info)
+    if (info%failed() .or. .not. allocated(solution%state)) return
+    allocate (state, source=solution%state(:n), stat=stat)
+    call require_memory(stat, 'the states of', n, 'points', info)
+    if (stat == 0) call move_alloc(state, solution%state)
   end subroutine strip_solution
+
+  !> The first `n` of `values`.
+  pure subroutine strip_values(n, values, info)
+    integer, intent(in) :: n
+    real(dp), intent(inout), allocatable :: values(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: first(:)
+    integer :: stat
+
+    allocate (first, source=values(:n), stat=stat)
+    call require_memory(stat, 'the solution of', n, 'points', info)
+    if (stat == 0) call move_alloc(first, values)
+  end subroutine strip_values
 
 end module fuge_spring_matrix

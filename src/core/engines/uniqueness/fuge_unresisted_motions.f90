@@ -20,6 +20,9 @@ module fuge_unresisted_motions
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
   !> A force below this fraction of the loads that it may carry is rounding.
   real(dp), parameter :: NO_FORCE = 1.0e-14_dp
+  !> Of many forces that are at their limits the last one carries what the sum of the others leaves of the load, with
+  !> about this many units in its last place, times the root of their number, of rounding.
+  real(dp), parameter :: ROUNDINGS = 64.0_dp
   !> A resultant in an unresisted motion below this fraction of its terms counts as zero.
   real(dp), parameter :: NO_LOAD = 1.0e-10_dp
 
@@ -65,24 +68,26 @@ contains
 
   !> The senses in which points (n) resist a motion where forces have limits: those of `loaded` ones both, at the end of
   !> its range a force resists in one sense only. `scale` (n) of the forces.
-  pure subroutine find_resistance(canonical, solution, loaded, scale, resists_closing, resists_opening)
+  subroutine find_resistance(canonical, solution, loaded, scale, resists_closing, resists_opening)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     logical, intent(in) :: loaded(:)
     real(dp), intent(in) :: scale(:)
     logical, intent(out) :: resists_closing(:), resists_opening(:)
     real(dp), dimension(size(loaded)) :: least, most
+    real(dp) :: noise
     integer :: k
 
     call canonical%force_range(solution%state, least, most)
+    noise = no_room(canonical)
     do k = 1, size(loaded)
       associate (state => solution%state(k), force => solution%force(k), gap => solution%gap(k))
         if (canonical%excluded(k)) then
           resists_closing(k) = .false.
           resists_opening(k) = .false.
         else if (is_at_stop(state)) then
-          resists_closing(k) = loaded(k) .or. most(k) - force > NO_FORCE*scale(k)
-          resists_opening(k) = loaded(k) .or. force - least(k) > NO_FORCE*scale(k)
+          resists_closing(k) = loaded(k) .or. most(k) - force > noise*scale(k)
+          resists_opening(k) = loaded(k) .or. force - least(k) > noise*scale(k)
         else
           resists_closing(k) = (state == FUGE_OPEN .and. gap <= 0.0_dp .and. canonical%pushes(k)) &
                                .or. (state == FUGE_LIMITED_UPPER .and. gap <= canonical%upper(k))
@@ -119,6 +124,7 @@ contains
     real(dp), intent(out) :: scale(:)
     logical, intent(out) :: loaded(:)
     real(dp), allocatable :: least(:), most(:)
+    real(dp) :: noise
     integer :: j
 
     scale = 0.0_dp
@@ -136,8 +142,18 @@ contains
     if (.not. canonical%has_limits()) return
     allocate (least(size(loaded)), most(size(loaded)))
     call canonical%force_range(solution%state, least, most)
-    loaded = loaded .and. solution%force - least > NO_FORCE*scale .and. most - solution%force > NO_FORCE*scale
+    noise = no_room(canonical)
+    loaded = loaded .and. solution%force - least > noise*scale .and. most - solution%force > noise*scale
   end subroutine mark_loaded
+
+  !> A force nearer to its limit than this fraction of its scale may be there.
+  function no_room(canonical) result(fraction)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp) :: fraction
+
+    fraction = sqrt(real(canonical%space%total_count(size(canonical%gap)), dp))
+    fraction = max(NO_FORCE, ROUNDINGS*epsilon(fraction)*fraction)
+  end function no_room
 
   !> An orthonormal basis of the motions q with R q = 0 at the points marked in `resists` (n).
   !>

@@ -7,7 +7,8 @@
 module fuge_contact_set_search
   use fuge_blocking_step, only: is_tensile, step_to_blocking
   use fuge_complete_contact, only: equal_forces_displace_nothing
-  use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, is_accurate, make_feasible, rounding_force
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, is_accurate, &
+    make_feasible, rounding_force
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, &
@@ -15,8 +16,8 @@ module fuge_contact_set_search
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
   use fuge_limited_descent, only: descend_within_limits
-  use fuge_limited_points, only: exchange_limited_points, greatest_excess, return_deepest, set_balanced_forces, &
-    step_to_limit
+  use fuge_limited_points, only: exchange_limited_points, greatest_excess, release_furthest, return_deepest, &
+    set_balanced_forces, step_to_limit
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
@@ -77,7 +78,7 @@ contains
     real(dp) :: previous_residual
     type(stall_counter) :: stalls
     integer :: cells(2), products, wrong
-    logical :: to_tolerance, confirmed, descended, fresh, in_row, undetermined
+    logical :: to_tolerance, confirmed, descended, descends, fresh, in_row, undetermined
 
     cells = operator%grid()
     in_row = all(cells > 0) .and. any(cells == 1)
@@ -85,7 +86,10 @@ contains
     call stalls%start(MAX_STALLS)
     previous_residual = huge(previous_residual)
     to_tolerance = .false.
-    if (.not. settings%prepared) then
+    if (carry_just_the_load(scene)) then
+      call start_at_limits(operator, scene, iterate, info)
+      if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
+    else if (.not. settings%prepared) then
       call choose_contact(scene, iterate)
       call make_feasible(operator, scene, iterate, info)
     end if
@@ -128,7 +132,8 @@ contains
         if (scene%has_limits()) then
           ! Forces to start from on a finer grid are worth no exchanges of single points.
           if (settings%coarse_grid) exit
-          if (.not. descended .and. scene%fits_window()) then
+          descends = scene%rows%everywhere(scene%fits_window() .and. .not. descended)
+          if (descends) then
             descended = .true.
             call set_feasible_start(operator, scene, iterate, info)
             if (.not. info%failed()) call descend_within_limits(operator, scene, monitor, iterate, info)
@@ -162,6 +167,32 @@ contains
     end do
     info%preconditionings = info%preconditionings + ceiling(preconditioner%coarse_share)
   end subroutine find_contact_set
+
+  !> Do all limits together carry just the load, which is 1?
+  function carry_just_the_load(scene) result(carry)
+    type(contact_scene), intent(in) :: scene
+    logical :: carry
+
+    carry = scene%has_limits() .and. .not. (scene%prescribed .or. allocated(scene%modes))
+    if (carry) carry = scene%rows%total(sum(min(scene%limit, 1.0_dp))) <= 1.0_dp + NEARLY
+  end function carry_just_the_load
+
+  !> Limits that carry just the load: all points are at theirs, but for the last one to come there. Errors: those of
+  !> the operator.
+  subroutine start_at_limits(operator, scene, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+
+    iterate%force = scene%limit
+    if (allocated(scene%excluded)) where (scene%excluded) iterate%force = 0.0_dp
+    iterate%contact = .false.
+    iterate%limited = merge(1, 0, iterate%force > 0.0_dp)
+    call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, iterate%displacement, info)
+    ! A point of next to no force does not carry what the others leave.
+    if (.not. info%failed()) call release_furthest(scene, NEARLY, iterate)
+  end subroutine start_at_limits
 
   !> Is the contact complete and its forces undetermined, because the motion is prescribed and equal
   !> forces displace nothing? Errors: those of equal_forces_displace_nothing.
@@ -310,12 +341,8 @@ contains
     type(contact_iterate), intent(inout) :: iterate
 
     if (.not. allocated(scene%modes)) then
-      if (.not. scene%has_limits() .or. iterate%prescribed) return
-      ! Where the limits carry just the load, which is 1, the last points carry what a sum leaves of it, with its
-      ! rounding.
-      if (sum(min(scene%limit, 1.0_dp)) <= 1.0_dp + NEARLY) then
-        iterate%tension_noise = ROUNDINGS*epsilon(1.0_dp)*sqrt(real(scene%points(), dp))
-      end if
+      ! The last points carry what a sum leaves of the load, with its rounding.
+      if (carry_just_the_load(scene)) iterate%tension_noise = ROUNDINGS*epsilon(1.0_dp)*sqrt(real(scene%points(), dp))
       return
     end if
     iterate%tension_noise = max(tension_by_rounding(settings, scene, iterate), rounding_force(scene, iterate))
@@ -431,10 +458,10 @@ contains
       if (greatest_excess(scene, iterate) > 0.0_dp) then
         call step_to_limit(scene, feasible, newest, locked, iterate)
       else
-        if (newest > 0) locked = locked .and. locked(newest)
+        call keep_lock(scene, newest, locked)
         if (.not. iterate%converged) exit
         call return_deepest(scene, penetration_noise(settings, iterate), locked, iterate, newest)
-        if (newest == 0) exit
+        if (.not. scene%rows%anywhere(newest > 0)) exit
       end if
       iterate%least_compliance = 0.0_dp
       call make_feasible(operator, scene, iterate, info)

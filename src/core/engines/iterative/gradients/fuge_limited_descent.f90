@@ -12,6 +12,7 @@ module fuge_limited_descent
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_operator_type, only: fuge_operator
+  use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, require_memory
   implicit none
   private
@@ -44,16 +45,18 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: direction(:), change(:), most(:)
-    real(dp) :: curvature, length, load, share, slope
+    real(dp) :: curvature, length, load, share, slope, sums(3)
     integer :: changed, n, quiet, stat, step
 
     n = size(scene%gap)
     allocate (direction(n), change(n), most(n), stat=stat)
     call require_memory(stat, 'projected gradients of', n, 'points', info)
-    if (stat /= 0) return
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     most = scene%limit
-    load = sum(iterate%force)
-    length = maxval(abs(iterate%force))/max(maxval(abs(iterate%displacement)), tiny(length))
+    load = scene%rows%total(sum(iterate%force))
+    length = scene%rows%largest(maxval(abs(iterate%force))) &
+             /max(scene%rows%largest(maxval(abs(iterate%displacement))), tiny(length))
     quiet = 0
     do step = 1, STEPS
       ! The gradient of the energy but for the motion, which the projection takes out.
@@ -63,23 +66,26 @@ contains
       else
         ! So that sums of forces and shifts do not overflow.
         direction = max(direction, -FARTHEST*load)
-        call project_on_load(load, most, direction)
+        call project_on_load(scene%rows%point_space, load, most, direction)
       end if
-      changed = count((direction > 0.0_dp .neqv. iterate%force > 0.0_dp) .or. &
-                      (direction >= most .neqv. iterate%force >= most))
+      changed = scene%rows%total_count(count((direction > 0.0_dp .neqv. iterate%force > 0.0_dp) .or. &
+                                             (direction >= most .neqv. iterate%force >= most)))
       direction = direction - iterate%force
       call compute_displacement(operator, counts_datum(scene, iterate), direction, change, info)
       if (info%failed()) return
-      slope = -dot_product(direction, scene%gap + iterate%displacement)
-      curvature = dot_product(direction, change)
+      sums = [dot_product(direction, scene%gap + iterate%displacement), dot_product(direction, change), &
+              dot_product(direction, direction)]
+      call scene%rows%add(sums)
+      slope = -sums(1)
+      curvature = sums(2)
       if (.not. (slope > 0.0_dp .and. curvature > 0.0_dp)) exit
       share = min(slope/curvature, 1.0_dp)
       iterate%force = iterate%force + share*direction
       iterate%displacement = iterate%displacement + share*change
       if (mod(step, REPORTED) == 0) call tell_progress(scene, iterate, monitor, info)
       if (info%failed()) return
-      length = dot_product(direction, direction)/curvature
-      quiet = merge(quiet + 1, 0, real(changed, dp) <= FEW*real(n, dp))
+      length = sums(3)/curvature
+      quiet = merge(quiet + 1, 0, real(changed, dp) <= FEW*real(scene%points(), dp))
       if (quiet >= SETTLED) exit
     end do
     ! Steps leave forces beside their limits by rounding.
@@ -87,23 +93,27 @@ contains
     where (iterate%force <= ROUNDING*min(most, load)) iterate%force = 0.0_dp
   end subroutine descend_within_limits
 
-  !> The nearest `forces` (n) within 0 .. `most` (n) whose sum is `load`: all are shifted alike, and cut.
-  pure subroutine project_on_load(load, most, forces)
+  !> The nearest `forces` (n) within 0 .. `most` (n) whose sum is `load`: all are shifted alike, and cut. `space` may
+  !> share the points.
+  subroutine project_on_load(space, load, most, forces)
+    type(point_space), intent(in) :: space
     real(dp), intent(in) :: load, most(:)
     real(dp), intent(inout) :: forces(:)
-    real(dp) :: least, greatest, shift, total, slope
+    real(dp) :: least, greatest, shift, total, slope, sums(2)
     integer :: k, step
 
-    least = -maxval(forces)
-    greatest = maxval(min(most, load) - forces)
+    least = -space%largest(maxval(forces))
+    greatest = space%largest(maxval(min(most, load) - forces))
     shift = min(max(0.0_dp, least), greatest)
     do step = 1, SHIFTS
-      total = 0.0_dp
-      slope = 0.0_dp
+      sums = 0.0_dp
       do k = 1, size(forces)
-        total = total + min(max(forces(k) + shift, 0.0_dp), most(k))
-        if (forces(k) + shift > 0.0_dp .and. forces(k) + shift < most(k)) slope = slope + 1.0_dp
+        sums(1) = sums(1) + min(max(forces(k) + shift, 0.0_dp), most(k))
+        if (forces(k) + shift > 0.0_dp .and. forces(k) + shift < most(k)) sums(2) = sums(2) + 1.0_dp
       end do
+      call space%add(sums)
+      total = sums(1)
+      slope = sums(2)
       if (abs(total - load) <= LOAD_ROUNDING*load) exit
       if (total < load) least = max(least, shift)
       if (total > load) greatest = min(greatest, shift)

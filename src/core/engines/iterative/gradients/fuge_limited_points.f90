@@ -9,7 +9,10 @@ module fuge_limited_points
   private
 
   public :: choose_limited_contact, count_wrong_limited, exchange_limited_points, excess_is_decided, greatest_excess, &
-    return_deepest, set_balanced_forces, step_to_limit
+    release_furthest, return_deepest, set_balanced_forces, step_to_limit
+
+  !> Forces this near to their limits, as a fraction of these, are there.
+  real(dp), parameter :: ROUNDING = 1.0e-12_dp
 
 contains
 
@@ -157,7 +160,9 @@ contains
       allocate (most, source=scene%limit)
       if (allocated(scene%excluded)) where (scene%excluded) most = 0.0_dp
       call find_limited_equilibrium(reshape(0.0_dp*most + 1.0_dp, [size(most), 1]), [1.0_dp], 0.0_dp*most, most, &
-                                    [epsilon(1.0_dp)], iterate%force, ignored)
+                                    [epsilon(1.0_dp)], iterate%force, ignored, scene%rows%point_space)
+      ! An even share of a load that all limits just carry is beside these by rounding.
+      where (iterate%force >= (1.0_dp - ROUNDING)*most) iterate%force = most
     end if
     call choose_limited_contact(scene, iterate)
   end subroutine set_balanced_forces
@@ -165,6 +170,7 @@ contains
   !> From the feasible forces `start` (n) go towards those of the iterate, which are the solution of its contact set,
   !> until the first one reaches the end of its range: that point leaves its stop, and the forces of the iterate are
   !> feasible again. If that is `newest`, which has just come back to its stop, it came by rounding and is `locked` (n).
+  !> `newest` is 0 where another rank has it.
   subroutine step_to_limit(scene, start, newest, locked, iterate)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: start(:)
@@ -174,22 +180,24 @@ contains
     real(dp) :: fraction, least, most, step_length
     integer :: blocking, k
 
-    step_length = 1.0_dp
+    step_length = huge(step_length)
     blocking = 0
     do k = 1, size(start)
       if (.not. iterate%contact(k)) cycle
       if (excess_of(scene, iterate, k, iterate%force(k)) <= iterate%tension_noise) cycle
       call scene%find_range(k, iterate%at_upper(k), least, most)
-      fraction = abs(min(max(iterate%force(k), least), most) - start(k)) &
-                 /max(abs(iterate%force(k) - start(k)), tiny(most))
+      fraction = min(abs(min(max(iterate%force(k), least), most) - start(k)) &
+                     /max(abs(iterate%force(k) - start(k)), tiny(most)), 1.0_dp)
       if (k == newest .and. .not. fraction > 0.0_dp) fraction = -1.0_dp
-      if (blocking > 0 .and. fraction >= step_length) cycle
+      if (fraction >= step_length) cycle
       step_length = fraction
       blocking = k
     end do
-    if (blocking == 0) return
-    if (step_length < 0.0_dp) locked(blocking) = .true.
-    step_length = min(max(step_length, 0.0_dp), 1.0_dp)
+    call keep_on_one_rank(scene, step_length, blocking)
+    step_length = scene%rows%least(step_length)
+    if (step_length >= huge(step_length)) return
+    if (step_length < 0.0_dp .and. blocking > 0) locked(blocking) = .true.
+    step_length = max(step_length, 0.0_dp)
     do k = 1, size(start)
       if (.not. iterate%contact(k)) cycle
       if (k == blocking) call leave_stop(scene, k, iterate)
@@ -197,8 +205,20 @@ contains
     end do
   end subroutine step_to_limit
 
+  !> Of the points of the ranks only that with the least `key` remains, the others become 0.
+  subroutine keep_on_one_rank(scene, key, point)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: key
+    integer, intent(inout) :: point
+    real(dp) :: owner(1)
+
+    owner = real(scene%rows%number(), dp)
+    call scene%rows%take_from_least(key, owner)
+    if (abs(owner(1) - real(scene%rows%number(), dp)) > 0.0_dp) point = 0
+  end subroutine keep_on_one_rank
+
   !> The point that is furthest on the wrong side of its stop, by more than `noise` and not `locked` (n), comes back to
-  !> it: `point`, 0 if there is none.
+  !> it: `point`, 0 if there is none, or where it is another rank's.
   subroutine return_deepest(scene, noise, locked, iterate, point)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: noise
@@ -217,8 +237,30 @@ contains
       greatest = overlap
       point = k
     end do
+    call keep_on_one_rank(scene, -greatest, point)
     if (point > 0) call return_to_stop(scene, point, iterate)
   end subroutine return_deepest
+
+  !> Of the points at the limit of their lower stop, the one that is furthest above the stop comes back to it; only
+  !> points with forces above `least` do.
+  subroutine release_furthest(scene, least, iterate)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: least
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: furthest
+    integer :: k, point
+
+    point = 0
+    furthest = -huge(furthest)
+    do k = 1, size(scene%gap)
+      if (iterate%limited(k) < 1 .or. .not. iterate%force(k) > least) cycle
+      if (scene%gap(k) + iterate%displacement(k) <= furthest) cycle
+      furthest = scene%gap(k) + iterate%displacement(k)
+      point = k
+    end do
+    call keep_on_one_rank(scene, -furthest, point)
+    if (point > 0) call return_to_stop(scene, point, iterate)
+  end subroutine release_furthest
 
   !> The largest excess of a force in contact over its range; 0 if there is none.
   function greatest_excess(scene, iterate) result(excess)

@@ -120,24 +120,24 @@ contains
     if (solved) least_compliance = compliance
   end subroutine solve_in_window
 
-  !> Do the limits of the forces in the box leave room for the load, which is 1? Where ranks share points there are
-  !> none.
-  pure function carries_load(box, scene) result(carries)
+  !> Do the limits of the forces in the box leave room for the load, which is 1?
+  function carries_load(box, scene) result(carries)
     type(cell_box), intent(in) :: box
     type(contact_scene), intent(in) :: scene
     logical :: carries
     real(dp) :: most
-    integer :: begin, j, n(2)
+    integer :: begin, j, n(2), range(2)
 
     carries = scene%prescribed .or. .not. scene%has_limits()
     if (carries) return
     n = box%extent()
+    range = box%rows_here(scene%rows)
     most = 0.0_dp
-    do j = box%first(2), box%last(2)
-      begin = box%cells(1)*(j - 1) + box%first(1)
+    do j = range(1), range(2)
+      begin = box%cells(1)*(j - first_row(scene%rows)) + box%first(1)
       most = most + sum(min(scene%limit(begin:begin + n(1) - 1), 1.0_dp))
     end do
-    carries = most > ROOM
+    carries = scene%rows%total(most) > ROOM
   end function carries_load
 
   !> Widen the box by half its cells on the sides `at_first` and `at_last`, of each direction.

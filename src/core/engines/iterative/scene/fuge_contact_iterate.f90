@@ -19,6 +19,10 @@ module fuge_contact_iterate
 
   !> Gaps less rigid displacements may be rounded by this many units in the last place of their terms.
   real(dp), parameter :: ROUNDINGS = 2.0_dp
+  !> A sum of n forces is rounded by at most about this many units in its last place, times the root of n.
+  real(dp), parameter :: SUM_ROUNDINGS = 64.0_dp
+  !> Distances tried to find those of the last points that carry a load.
+  integer, parameter :: LEVELS = 100
   !> Displacements below this fraction of the gaps are rounding.
   real(dp), parameter :: NO_LENGTH = 1.0e-14_dp
 
@@ -225,15 +229,23 @@ contains
 
   !> As `restore_load`, where some forces are at their limits and stay there. Forces that are too large together shrink
   !> by one factor; where they are too small, what they lack of their limits does, so that all stay within these. Where
-  !> the others would have to pull, all points that have a force share the load.
+  !> the others would have to pull, all points that have a force share the load. Where the forces at their limits carry
+  !> just the load, the last of them to get there has what they leave; where they carry less or more and no others are
+  !> in contact, the nearest points get to their limits as well, or the furthest leave theirs.
   subroutine restore_load_within_limits(scene, iterate)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
     real(dp) :: sums(4), factor, rest
 
-    sums = [sum(iterate%force, mask=iterate%contact), sum(iterate%force, mask=.not. iterate%contact), &
-            real(count(iterate%contact), dp), sum(min(scene%limit, 1.0_dp), mask=iterate%contact)]
-    call iterate%segments%space%add(sums)
+    sums = sums_within_limits(scene, iterate)
+    if (.not. sums(3) > 0.0_dp) then
+      if (abs(1.0_dp - sums(2)) <= sum_rounding(scene)) then
+        call free_last_limited(scene, iterate)
+      else
+        call fill_to_load(scene, 1.0_dp - sums(2), iterate)
+      end if
+      sums = sums_within_limits(scene, iterate)
+    end if
     rest = 1.0_dp - sums(2)
     if (rest <= 0.0_dp .or. .not. sums(3) > 0.0_dp) then
       iterate%contact = iterate%contact .or. iterate%limited /= 0
@@ -250,6 +262,80 @@ contains
       where (iterate%contact) iterate%force = rest/sums(3)
     end if
   end subroutine restore_load_within_limits
+
+  !> The sums of the forces on the contact set and off it, the points of the set, and the sum of their limits.
+  function sums_within_limits(scene, iterate) result(sums)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: sums(4)
+
+    sums = [sum(iterate%force, mask=iterate%contact), sum(iterate%force, mask=.not. iterate%contact), &
+            real(count(iterate%contact), dp), sum(min(scene%limit, 1.0_dp), mask=iterate%contact)]
+    call iterate%segments%space%add(sums)
+  end function sums_within_limits
+
+  !> The rounding of a sum of forces that is 1.
+  function sum_rounding(scene) result(rounding)
+    type(contact_scene), intent(in) :: scene
+    real(dp) :: rounding
+
+    rounding = SUM_ROUNDINGS*epsilon(rounding)*sqrt(real(scene%points(), dp))
+  end function sum_rounding
+
+  !> The point that penetrates its stop least of those at the limits of these comes back to it.
+  subroutine free_last_limited(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: greatest, greatest_of_all
+    integer :: last
+
+    last = maxloc(scene%gap + iterate%displacement, dim=1, mask=iterate%limited == 1)
+    greatest = -huge(greatest)
+    if (last > 0) greatest = scene%gap(last) + iterate%displacement(last)
+    greatest_of_all = iterate%segments%space%largest(greatest)
+    if (last < 1 .or. greatest < greatest_of_all) return
+    iterate%limited(last) = 0
+    iterate%contact(last) = .true.
+    iterate%at_upper(last) = .false.
+  end subroutine free_last_limited
+
+  !> Open points get to their limits, the nearest first, until these have the `rest` of the load; if that is negative,
+  !> those at their limits open, the furthest first. The last ones are in contact.
+  subroutine fill_to_load(scene, rest, iterate)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: rest
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: bounds(2), carried(1), middle
+    integer :: step
+
+    ! Distances in `work`; those of points that do not take part are out of reach.
+    iterate%work = sign(1.0_dp, rest)*(scene%gap + iterate%displacement)
+    if (rest > 0.0_dp) then
+      where (iterate%limited /= 0 .or. .not. scene%limit > 0.0_dp .or. scene%gap >= OUT_OF_REACH) &
+        iterate%work = OUT_OF_REACH
+    else
+      where (iterate%limited /= 1) iterate%work = OUT_OF_REACH
+    end if
+    bounds = [-minval(iterate%work), maxval(iterate%work, mask=iterate%work < OUT_OF_REACH)]
+    call iterate%segments%space%raise(bounds)
+    if (.not. -bounds(1) < OUT_OF_REACH) return
+    bounds(1) = -bounds(1) - max(bounds(2) + bounds(1), spacing(bounds(1)))
+    do step = 1, LEVELS
+      middle = bounds(1) + 0.5_dp*(bounds(2) - bounds(1))
+      if (.not. (middle > bounds(1) .and. middle < bounds(2))) exit
+      carried = sum(min(scene%limit, 1.0_dp), mask=iterate%work <= middle)
+      call iterate%segments%space%add(carried)
+      bounds(merge(2, 1, carried(1) >= abs(rest))) = middle
+    end do
+    where (iterate%work <= bounds(1))
+      iterate%limited = merge(1, 0, rest > 0.0_dp)
+      iterate%force = merge(scene%limit, 0.0_dp, rest > 0.0_dp)
+    else where (iterate%work <= bounds(2))
+      iterate%limited = 0
+      iterate%contact = .true.
+      iterate%at_upper = .false.
+    end where
+  end subroutine fill_to_load
 
   !> Forces of sum 1; equal ones where there are none.
   subroutine restore_load(iterate)

@@ -333,7 +333,8 @@ contains
     noise = epsilon(noise)*maxval(abs(scene%load))
     if (scene%has_limits()) then
       call find_limited_equilibrium(scene%modes, scene%load, merge(-scene%limit_upper, 0.0_dp, pulls), &
-                                    merge(scene%limit, 0.0_dp, pushes), noise, scene%balance, remainder)
+                                    merge(scene%limit, 0.0_dp, pushes), noise, scene%balance, remainder, &
+                                    scene%rows%point_space)
     else
       call find_shared_equilibrium(scene%rows%point_space, scene%modes, scene%load, pushes, pulls, scene%balance, &
                                    remainder, noise)

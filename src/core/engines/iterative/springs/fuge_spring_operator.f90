@@ -15,7 +15,7 @@ module fuge_spring_operator
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
-  use fuge_problem_type, only: fuge_problem
+  use fuge_problem_type, only: copy_problem, fuge_problem
   use fuge_shared_rows, only: rows_of, shared_rows
   use fuge_shared_transfer, only: restrict_rows
   use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW
@@ -27,12 +27,17 @@ module fuge_spring_operator
   !> Springs outweigh the displacements by A from this multiple of the compliance of its longest wave on.
   real(dp), parameter :: OUTWEIGHS = 3.0_dp
 
-  !> Call `set_springs`, then `attach` it to an operator.
+  !> What a grid of springs stands on that no operator keeps.
+  type :: owned_operator
+    class(fuge_operator), allocatable :: operator
+  end type owned_operator
+
+  !> Call `set_springs`, then `attach` it to an operator. Copies are allowed of one that is detached.
   type, extends(fuge_operator), public :: spring_operator
     private
-    !> The operator without springs, of the caller, or owned.
+    !> The operator without springs: that of the caller, or `owned`, in memory of its own.
     class(fuge_operator), pointer :: attached => null()
-    class(fuge_operator), allocatable :: owned
+    type(owned_operator), pointer :: owned => null()
     !> Compliance of each point, (n), length per force; not allocated: none.
     real(dp), allocatable :: compliance(:)
     !> Modes of the motions on springs, (n, s), and what their springs give way by, (s), motion per resultant; not
@@ -65,10 +70,10 @@ module fuge_spring_operator
     procedure :: window
     procedure :: ranks
     procedure :: first_rows
-    procedure, private :: elastic
     procedure, private :: add_springs
     procedure, private :: add_magnitudes
     procedure, private :: prepare
+    final :: destroy
   end type spring_operator
 
 contains
@@ -81,6 +86,7 @@ contains
     logical, intent(in) :: on_spring(:)
     type(point_space), intent(in) :: space
     type(fuge_info), intent(inout) :: info
+    real(dp) :: arm(size(on_spring))
     integer :: j, n, springs, stat
 
     call clear(self)
@@ -94,6 +100,8 @@ contains
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     if (allocated(problem%compliance)) self%compliance = problem%compliance
+    arm = problem%arms()
+    call space%raise(arm)
     springs = 0
     do j = 1, size(on_spring)
       if (.not. on_spring(j)) cycle
@@ -101,9 +109,8 @@ contains
       self%motion(springs) = j
       self%modes(:, springs) = 1.0_dp
       if (allocated(problem%modes)) self%modes(:, springs) = problem%modes(:, j)
-      associate (arm => space%largest(maxval(abs(self%modes(:, springs)))), stiffness => problem%motion_stiffness(j), &
-                 load => abs(problem%resultant(j)))
-        if (max(0, exponent(load), 2*exponent(arm), exponent(arm) + exponent(load)) - exponent(stiffness) &
+      associate (stiffness => problem%motion_stiffness(j), load => abs(problem%resultant(j)))
+        if (max(0, exponent(load), 2*exponent(arm(j)), exponent(arm(j)) + exponent(load)) - exponent(stiffness) &
             > LARGEST_EXPONENT) then
           call report(info, FUGE_ERR_OVERFLOW, 'motion_stiffness reaches down to '//text(stiffness) &
                       //': choose units in which it is larger, or 0 for no spring')
@@ -137,17 +144,14 @@ contains
     class(spring_operator), intent(inout) :: self
 
     self%attached => null()
-    if (allocated(self%owned)) deallocate (self%owned)
+    if (associated(self%owned)) deallocate (self%owned)
   end subroutine detach
 
-  !> The operator without springs.
-  function elastic(self)
-    class(spring_operator), intent(in), target :: self
-    class(fuge_operator), pointer :: elastic
+  impure elemental subroutine destroy(self)
+    type(spring_operator), intent(inout) :: self
 
-    elastic => self%attached
-    if (allocated(self%owned)) elastic => self%owned
-  end function elastic
+    call self%detach()
+  end subroutine destroy
 
   !> Number of points.
   pure function points(self) result(n)
@@ -155,11 +159,7 @@ contains
     integer :: n
 
     n = 0
-    if (allocated(self%owned)) then
-      n = self%owned%points()
-    else if (associated(self%attached)) then
-      n = self%attached%points()
-    end if
+    if (associated(self%attached)) n = self%attached%points()
   end function points
 
   !> u = (A - datum + D + R S^-1 R^T) f; see `fuge_operator`.
@@ -168,12 +168,21 @@ contains
     real(dp), intent(in) :: force(:)
     real(dp), intent(out) :: displacement(:)
     integer, intent(out) :: status
-    class(fuge_operator), pointer :: elastic
 
-    elastic => self%elastic()
-    call elastic%apply(force, displacement, status)
-    if (status == FUGE_DONE) call self%add_springs(force, displacement)
+    call self%attached%apply(force, displacement, status)
+    if (is_done_everywhere(self, status)) call self%add_springs(force, displacement)
   end subroutine apply
+
+  !> Did all ranks succeed? All of them ask, or others would wait for those that did not.
+  function is_done_everywhere(self, status) result(done)
+    class(spring_operator), intent(in) :: self
+    integer, intent(in) :: status
+    logical :: done
+    type(point_space) :: space
+
+    space = self%ranks()
+    done = space%everywhere(status == FUGE_DONE)
+  end function is_done_everywhere
 
   !> Add the displacements by the springs to `displacement` (n).
   subroutine add_springs(self, force, displacement)
@@ -215,10 +224,8 @@ contains
   function datum(self)
     class(spring_operator), intent(in) :: self
     real(dp) :: datum
-    class(fuge_operator), pointer :: elastic
 
-    elastic => self%elastic()
-    datum = elastic%datum()
+    datum = self%attached%datum()
   end function datum
 
   !> See `fuge_operator`.
@@ -226,10 +233,8 @@ contains
     class(spring_operator), intent(in) :: self
     real(dp), intent(in) :: force(:), displacement(:)
     real(dp), intent(out) :: magnitude(:)
-    class(fuge_operator), pointer :: elastic
 
-    elastic => self%elastic()
-    call elastic%magnitude(force, displacement, magnitude)
+    call self%attached%magnitude(force, displacement, magnitude)
     call self%add_magnitudes(force, magnitude)
   end subroutine find_magnitude
 
@@ -240,12 +245,10 @@ contains
     logical, intent(in) :: contact(:)
     real(dp), intent(in) :: modes(:, :)
     real(dp) :: compliance
-    class(fuge_operator), pointer :: elastic
     type(point_space) :: space
     real(dp) :: extremes(2)
 
-    elastic => self%elastic()
-    compliance = elastic%least_pair_compliance(contact, modes)
+    compliance = self%attached%least_pair_compliance(contact, modes)
     if (.not. allocated(self%compliance) .or. compliance >= huge(compliance)) return
     space = self%ranks()
     if (.not. space%anywhere(any(contact))) return
@@ -261,10 +264,8 @@ contains
   function has_preconditioner(self) result(preconditioned)
     class(spring_operator), intent(in) :: self
     logical :: preconditioned
-    class(fuge_operator), pointer :: elastic
 
-    elastic => self%elastic()
-    preconditioned = elastic%has_preconditioner()
+    preconditioned = self%attached%has_preconditioner()
   end function has_preconditioner
 
   !> The sum over the beds of the preconditioner of A on each of them, restricted to its points.
@@ -280,15 +281,15 @@ contains
       call precondition_on(self, 1, displacement, force, status)
       return
     end if
+    force = 0.0_dp
     allocate (on_bed(size(displacement)), share(size(displacement)), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
-    if (stat /= 0) return
-    force = 0.0_dp
+    if (.not. is_done_everywhere(self, status)) return
     where (self%bed_of == 0) force = displacement/self%compliance
     do bed = 1, size(self%beds)
       on_bed = merge(displacement, 0.0_dp, self%bed_of == bed)
       call precondition_on(self, bed, on_bed, share, status)
-      if (status /= FUGE_DONE) return
+      if (.not. is_done_everywhere(self, status)) return
       where (self%bed_of == bed) force = share
     end do
   end subroutine precondition
@@ -300,15 +301,13 @@ contains
     real(dp), intent(in) :: displacement(:)
     real(dp), intent(out) :: force(:)
     integer, intent(out) :: status
-    class(fuge_operator), pointer :: elastic
     logical :: on_bed
 
-    elastic => self%elastic()
-    on_bed = elastic%has_preconditioner_on_bed()
+    on_bed = self%attached%has_preconditioner_on_bed()
     if (on_bed .and. allocated(self%beds)) then
-      call elastic%precondition_on_bed(self%beds(bed), displacement, force, status)
+      call self%attached%precondition_on_bed(self%beds(bed), displacement, force, status)
     else
-      call elastic%precondition(displacement, force, status)
+      call self%attached%precondition(displacement, force, status)
     end if
   end subroutine precondition_on
 
@@ -316,30 +315,24 @@ contains
   function grid(self) result(cells)
     class(spring_operator), intent(in) :: self
     integer :: cells(2)
-    class(fuge_operator), pointer :: elastic
 
-    elastic => self%elastic()
-    cells = elastic%grid()
+    cells = self%attached%grid()
   end function grid
 
   !> See `fuge_operator`.
   function free_rim(self) result(free)
     class(spring_operator), intent(in) :: self
     logical :: free(2)
-    class(fuge_operator), pointer :: elastic
 
-    elastic => self%elastic()
-    free = elastic%free_rim()
+    free = self%attached%free_rim()
   end function free_rim
 
   !> See `fuge_operator`.
   function ranks(self) result(space)
     class(spring_operator), intent(in) :: self
     type(point_space) :: space
-    class(fuge_operator), pointer :: elastic
 
-    elastic => self%elastic()
-    space = elastic%ranks()
+    space = self%attached%ranks()
   end function ranks
 
   !> See `fuge_operator`.
@@ -347,10 +340,8 @@ contains
     class(spring_operator), intent(in) :: self
     integer, intent(in) :: levels
     integer, allocatable, intent(out) :: first(:)
-    class(fuge_operator), pointer :: elastic
 
-    elastic => self%elastic()
-    call elastic%first_rows(levels, first)
+    call self%attached%first_rows(levels, first)
   end subroutine first_rows
 
   !> Wider cells on springs: the force of a cell stands for equal ones on its points, which displace it by their mean.
@@ -358,22 +349,27 @@ contains
     class(spring_operator), intent(in) :: self
     integer, intent(in) :: levels
     class(fuge_operator), allocatable, intent(out) :: coarse
-    class(fuge_operator), pointer :: elastic
     type(spring_operator), allocatable :: wider
     type(shared_rows) :: rows, coarse_rows
+    type(point_space) :: space
     type(fuge_info) :: info
     real(dp), allocatable :: mode(:)
     integer :: cells(2), j, stat
 
-    elastic => self%elastic()
+    space = self%ranks()
     allocate (wider, stat=stat)
-    if (stat /= 0) return
-    call elastic%kept_coarser(levels, wider%attached)
-    if (.not. associated(wider%attached)) call elastic%coarsen(levels, wider%owned)
-    if (wider%points() < 1) return
+    if (.not. space%everywhere(stat == 0)) return
+    call self%attached%kept_coarser(levels, wider%attached)
+    if (.not. associated(wider%attached)) then
+      allocate (wider%owned, stat=stat)
+      if (.not. space%everywhere(stat == 0)) return
+      call self%attached%coarsen(levels, wider%owned%operator)
+      if (allocated(wider%owned%operator)) wider%attached => wider%owned%operator
+    end if
+    if (.not. associated(wider%attached)) return
     cells = self%grid()
-    call rows_of(elastic, 0, rows, info)
-    if (.not. info%failed()) call rows_of(elastic, levels, coarse_rows, info)
+    call rows_of(self%attached, 0, rows, info)
+    if (.not. info%failed()) call rows_of(self%attached, levels, coarse_rows, info)
     if (allocated(self%compliance) .and. .not. info%failed()) then
       call restrict_rows(rows, coarse_rows, cells, levels, self%compliance, wider%compliance, info)
       if (allocated(wider%compliance)) wider%compliance = wider%compliance/real(product(min(2**levels, cells)), dp)
@@ -399,18 +395,19 @@ contains
     class(spring_operator), intent(in) :: self
     integer, intent(in) :: first(2), last(2)
     class(fuge_operator), allocatable, intent(out) :: part
-    class(fuge_operator), pointer :: elastic
     type(spring_operator), allocatable :: inside
     type(point_space) :: space
     integer :: cells(2), j, n, stat
 
-    elastic => self%elastic()
     space = self%ranks()
     if (.not. space%is_alone()) return
     allocate (inside, stat=stat)
     if (stat /= 0) return
-    call elastic%window(first, last, inside%owned)
-    if (.not. allocated(inside%owned)) return
+    allocate (inside%owned, stat=stat)
+    if (stat /= 0) return
+    call self%attached%window(first, last, inside%owned%operator)
+    if (.not. allocated(inside%owned%operator)) return
+    inside%attached => inside%owned%operator
     cells = self%grid()
     n = inside%points()
     if (allocated(self%compliance)) then
@@ -447,7 +444,6 @@ contains
   !> Sort the compliances into beds. Where memory is short all points are on one.
   subroutine prepare(self)
     class(spring_operator), intent(inout) :: self
-    class(fuge_operator), pointer :: elastic
     type(point_space) :: space
     real(dp) :: extremes(2), waves(2)
     logical :: on_beds
@@ -456,13 +452,12 @@ contains
     if (allocated(self%beds)) deallocate (self%beds)
     if (allocated(self%bed_of)) deallocate (self%bed_of)
     if (.not. allocated(self%compliance)) return
-    elastic => self%elastic()
-    if (.not. elastic%has_preconditioner()) return
+    if (.not. self%attached%has_preconditioner()) return
     space = self%ranks()
     extremes = [-minval(self%compliance), maxval(self%compliance)]
     call space%raise(extremes)
-    waves = wave_compliances(elastic, space)
-    on_beds = elastic%has_preconditioner_on_bed()
+    waves = wave_compliances(self%attached, space)
+    on_beds = self%attached%has_preconditioner_on_bed()
     if (on_beds .and. max(-extremes(1), waves(1))*SIMILAR > extremes(2)) then
       call average_beds(self, space, 1)
       return
@@ -510,16 +505,21 @@ contains
     type(point_space), intent(in) :: space
     real(dp) :: compliance(2)
     real(dp), allocatable :: wave(:), force(:)
-    real(dp) :: stiffness
-    integer :: j, k, n, stat, status
+    real(dp) :: counts(0:space%members() - 1), stiffness
+    integer :: before, j, k, n, stat, status
 
     compliance = 1.0_dp
     n = operator%points()
+    counts = 0.0_dp
+    counts(space%number()) = real(n, dp)
+    call space%add(counts)
+    ! Points of the ranks before this one, at which the shortest wave begins.
+    before = int(sum(counts(:space%number() - 1)))
     allocate (wave(n), force(n), stat=stat)
     if (.not. space%everywhere(stat == 0)) return
     do j = 1, 2
       do k = 1, n
-        wave(k) = merge(real(1 - 2*modulo(k, 2), dp), 1.0_dp, j == 1)
+        wave(k) = merge(real(1 - 2*modulo(before + k, 2), dp), 1.0_dp, j == 1)
       end do
       call operator%precondition(wave, force, status)
       if (.not. space%everywhere(status == FUGE_DONE)) return
@@ -531,14 +531,16 @@ contains
   end function wave_compliances
 
   !> `fixed`: `problem` without springs, but with prescribed motions where these are on springs of this operator. The
-  !> others have the resultants `load` (m).
-  subroutine fix_motions(self, problem, load, fixed)
+  !> others have the resultants `load` (m). Error: FUGE_ERR_MEMORY.
+  subroutine fix_motions(self, problem, load, fixed, info)
     class(spring_operator), intent(in) :: self
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: load(:)
     type(fuge_problem), intent(out) :: fixed
+    type(fuge_info), intent(inout) :: info
 
-    fixed = problem
+    call copy_problem(problem, fixed, info)
+    if (info%failed()) return
     if (allocated(fixed%compliance)) deallocate (fixed%compliance)
     if (allocated(fixed%motion_stiffness)) deallocate (fixed%motion_stiffness)
     fixed%resultant = load
