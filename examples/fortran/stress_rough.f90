@@ -3,7 +3,7 @@ module stress_rough
   use example_output, only: create_file
   use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_halfspace_stress_grid, fuge_info, fuge_options, &
-    fuge_problem, fuge_solution, fuge_solver, fuge_von_mises, fuge_write_fields, fuge_write_volume, &
+    fuge_problem, fuge_solution, fuge_solver, fuge_von_mises, fuge_write_results, fuge_write_volume, &
     FUGE_MEAN, FUGE_PERIODIC
   use stress_maps, only: require, write_map, FOLDER_ARGUMENT
   use surface_heights, only: rms_gradient, self_affine_surface
@@ -133,8 +133,8 @@ contains
 
     call get_command_argument(FOLDER_ARGUMENT, folder)
     if (folder == '') folder = '.'
-    call fuge_write_fields(trim(folder)//'/stress_surface.vti', cells, cells, spacing, spacing, ['pressure'], &
-                           reshape(pressure, [size(pressure), 1]), info)
+    call fuge_write_results(trim(folder)//'/stress_surface.vti', cells, cells, spacing, spacing, ['pressure'], &
+                            reshape(pressure, [size(pressure), 1]), info)
     call require(info)
     call fuge_write_volume(trim(folder)//'/stress_body.vtr', cells/2, cells/2, spacing, spacing, depth, ['von_mises'], &
                            reshape(volume, [size(volume), 1]), info, origin=spacing*(centre - 1 - cells/4))

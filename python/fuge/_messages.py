@@ -23,7 +23,7 @@ _PATTERN = re.compile(
 )
 
 # Prefixes of functions that Python's methods do not have.
-_HANDLE = re.compile("(?:operator|bodies|body|pairs)_(?=.)")
+_HANDLE = re.compile("(?:operator|bodies|body|pairs|links)_(?=.)")
 
 _ARRAYS = {"f": "force", "u": "displacement"}
 _FUNCTIONS = {
@@ -34,6 +34,7 @@ _FUNCTIONS = {
     "solve": "solve",
     "condense": "condense",
     "follow_path": "follow_path",
+    "solve_cases": "solve_cases",
     "join_bodies": "join",
 }
 

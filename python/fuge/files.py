@@ -331,44 +331,44 @@ def level_surface(height: ArrayLike, form: SurfaceForm) -> NDArray[np.float64]:
 # ---- pictures
 
 
-def _named(fields: Mapping[str, ArrayLike], shape: tuple[int, ...]) -> tuple[list[Any], Any]:
-    """C arrays of names and fields, and what keeps them alive."""
-    arrays = [_arrays.doubles(f"the field {name!r}", field, shape) for name, field in fields.items()]
-    return [len(arrays), _arrays.texts(fields), _arrays.addresses(arrays)], arrays
+def _named(results: Mapping[str, ArrayLike], shape: tuple[int, ...]) -> tuple[list[Any], Any]:
+    """C arrays of names and results, and what keeps them alive."""
+    arrays = [_arrays.doubles(f"the result {name!r}", result, shape) for name, result in results.items()]
+    return [len(arrays), _arrays.texts(results), _arrays.addresses(arrays)], arrays
 
 
-def _grid_shape(fields: Mapping[str, ArrayLike], *dimensions: str) -> tuple[int, ...]:
-    for name, field in fields.items():
-        shape = np.shape(field)
-        _arrays.check_shape(f"the field {name!r}", shape, dimensions)
+def _grid_shape(results: Mapping[str, ArrayLike], *dimensions: str) -> tuple[int, ...]:
+    for name, result in results.items():
+        shape = np.shape(result)
+        _arrays.check_shape(f"the result {name!r}", shape, dimensions)
         return shape
     return (0,) * len(dimensions)
 
 
-def write_fields(
+def write_results(
     path: PathLike,
     spacing: tuple[float, float],
-    fields: Mapping[str, ArrayLike],
+    results: Mapping[str, ArrayLike],
     *,
     origin: tuple[float, float] | None = None,
 ) -> None:
-    """Write fields on the cells of a grid for ParaView, a VTI file; an existing file is replaced.
+    """Write results on the cells of a grid for ParaView, a VTI file; an existing file is replaced.
 
     Parameters
     ----------
     path : str or path
     spacing : (float, float)
         Sizes of a cell along x and y; length.
-    fields : dict of array_like, shape (ny, nx)
+    results : dict of array_like, shape (ny, nx)
         By their names.
     origin : (float, float), optional
         Centre of the first cell; length.
     """
-    ny, nx = _grid_shape(fields, "ny", "nx")
-    named, kept = _named(fields, (ny, nx))
+    ny, nx = _grid_shape(results, "ny", "nx")
+    named, kept = _named(results, (ny, nx))
     start = None if origin is None else _arrays.vector("origin", origin, 2)
     steps = _arrays.vector("spacing", spacing, 2)
-    call("fuge_write_fields", encoded(path), nx, ny, steps, start, *named, shapes={"value": (ny, nx)})
+    call("fuge_write_results", encoded(path), nx, ny, steps, start, *named, shapes={"value": (ny, nx)})
     del kept
 
 
@@ -376,24 +376,24 @@ def write_volume(
     path: PathLike,
     spacing: tuple[float, float],
     depth: ArrayLike,
-    fields: Mapping[str, ArrayLike],
+    results: Mapping[str, ArrayLike],
     *,
     origin: tuple[float, float] | None = None,
 ) -> None:
-    """Write fields below the cells of a grid, at several depths, for ParaView: a VTR file.
+    """Write results below the cells of a grid, at several depths, for ParaView: a VTR file.
 
     Parameters
     ----------
     path, spacing, origin
-        As in :func:`write_fields`.
+        As in :func:`write_results`.
     depth : array_like, shape (d,)
         Ascending; length.
-    fields : dict of array_like, shape (d, ny, nx)
+    results : dict of array_like, shape (d, ny, nx)
         Such as the components of :func:`halfspace_stress_grid`.
     """
     depths = _arrays.vector("depth", depth)
-    shape = _grid_shape(fields, "d", "ny", "nx")
-    named, kept = _named(fields, (depths.size, *shape[1:]))
+    shape = _grid_shape(results, "d", "ny", "nx")
+    named, kept = _named(results, (depths.size, *shape[1:]))
     start = None if origin is None else _arrays.vector("origin", origin, 2)
     steps = _arrays.vector("spacing", spacing, 2)
     size = [shape[2], shape[1]]

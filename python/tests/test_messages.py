@@ -23,7 +23,7 @@ class Words(unittest.TestCase):
             ("the largest at point 13, cannot", "the largest at point [2, 3], cannot"),
             ("mode 1 at point (13) = NaN", "modes[2, 3, 1] = NaN"),
             ("at 2 point(s), the first is 13: if", "at 2 point(s), the first is [2, 3]: if"),
-            ('field "p(1)": value(1) = NaN', 'field "p(1)": value[1] = NaN'),
+            ('result "p(1)": value(1) = NaN', 'result "p(1)": value[1] = NaN'),
             ("2 x 3 (rows)", "2 x 3 (rows)"),
         ]:
             self.assertEqual(in_python(message, shapes), wanted)
@@ -65,7 +65,7 @@ class Places(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "surface.txt"
             self.says("height", lambda: fuge.write_surface(path, self.bad))
-            self.says("value", lambda: fuge.write_fields(path, (1.0, 1.0), {"p": self.bad}))
+            self.says("value", lambda: fuge.write_results(path, (1.0, 1.0), {"p": self.bad}))
             deep = {"p": np.stack([np.zeros((4, 5)), self.bad])}
             self.says("value", lambda: fuge.write_volume(path, (1.0, 1.0), [0.0, 1.0], deep), "[1, 2, 3]")
 

@@ -3,7 +3,7 @@ module fuge_c_surfaces
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
   use fuge_c_arrays, only: find_array, give
   use fuge_c_types, only: from_c_string, report_to_c, require_count, require_path, require_pointer
-  use fuge_field_files, only: fuge_write_fields, fuge_write_volume
+  use fuge_result_files, only: fuge_write_results, fuge_write_volume
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
   use fuge_surface_files, only: fuge_read_surface, fuge_write_surface
@@ -13,7 +13,7 @@ module fuge_c_surfaces
   implicit none
   private
 
-  !> Longest name of a field that is passed on: one character more than is allowed.
+  !> Longest name of a result that is passed on: one character more than is allowed.
   integer, parameter :: NAME_LENGTH = 201
 
 contains
@@ -116,7 +116,7 @@ contains
     status = report_to_c(info, message, length)
   end function c_level_surface
 
-  !> The heights of a surface of C; unless an error is known already, NULL and sizes that cannot be are one.
+  !> The heights of a surface of C; unless an error is known already, NULL and impossible sizes are errors.
   subroutine find_heights(nx, ny, address, height, info)
     integer(c_int), intent(in) :: nx, ny
     type(c_ptr), intent(in) :: address
@@ -141,15 +141,15 @@ contains
                                       //' points are more than an integer counts')
   end subroutine require_sizes
 
-  !> Ten arguments, as in the header: the file, the grid, the fields, the message.
-  function c_write_fields(path, nx, ny, spacing, origin, count, names, fields, message, length) &
-    bind(c, name='fuge_write_fields') result(status)
-    type(c_ptr), intent(in), value :: path, spacing, origin, names, fields, message
+  !> Ten arguments, as in the header: the file, the grid, the results, the message.
+  function c_write_results(path, nx, ny, spacing, origin, count, names, results, message, length) &
+    bind(c, name='fuge_write_results') result(status)
+    type(c_ptr), intent(in), value :: path, spacing, origin, names, results, message
     integer(c_int), intent(in), value :: nx, ny, count
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     character(len=NAME_LENGTH), allocatable :: all_names(:)
-    real(c_double), allocatable :: all_fields(:, :)
+    real(c_double), allocatable :: all_results(:, :)
     real(c_double), pointer :: spacings(:)
     type(fuge_info) :: info
     integer :: points
@@ -157,24 +157,24 @@ contains
     call require_path(path, info)
     call find_array(2_c_int, spacing, 'spacing', spacings, info)
     call require_sizes(nx, ny, info)
-    call require_count(count, 1, 'count', 'fields', info)
+    call require_count(count, 1, 'count', 'results', info)
     points = 0
     if (.not. info%failed()) points = int(nx)*int(ny)
-    call copy_fields(points, int(count), names, fields, all_names, all_fields, info)
-    if (.not. info%failed()) call fuge_write_fields(from_c_string(path), int(nx), int(ny), spacings(1), spacings(2), &
-                                                    all_names, all_fields, info, first_centre(origin))
+    call copy_results(points, int(count), names, results, all_names, all_results, info)
+    if (.not. info%failed()) call fuge_write_results(from_c_string(path), int(nx), int(ny), spacings(1), spacings(2), &
+                                                     all_names, all_results, info, first_centre(origin))
     status = report_to_c(info, message, length)
-  end function c_write_fields
+  end function c_write_results
 
-  !> Twelve arguments, as in the header: the file, the points, the fields, the message.
-  function c_write_volume(path, nx, ny, spacing, origin, depths, depth, count, names, fields, message, length) &
+  !> Twelve arguments, as in the header: the file, the points, the results, the message.
+  function c_write_volume(path, nx, ny, spacing, origin, depths, depth, count, names, results, message, length) &
     bind(c, name='fuge_write_volume') result(status)
-    type(c_ptr), intent(in), value :: path, spacing, origin, depth, names, fields, message
+    type(c_ptr), intent(in), value :: path, spacing, origin, depth, names, results, message
     integer(c_int), intent(in), value :: nx, ny, depths, count
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     character(len=NAME_LENGTH), allocatable :: all_names(:)
-    real(c_double), allocatable :: all_fields(:, :)
+    real(c_double), allocatable :: all_results(:, :)
     real(c_double), pointer :: spacings(:), levels(:)
     type(fuge_info) :: info
     integer :: points
@@ -184,12 +184,12 @@ contains
     call find_array(depths, depth, 'depth', levels, info)
     call require_sizes(nx, ny, info)
     call require_count(depths, 1, 'depths', 'elements of depth', info)
-    call require_count(count, 1, 'count', 'fields', info)
+    call require_count(count, 1, 'count', 'results', info)
     points = 0
     if (.not. info%failed()) call find_points([nx, ny, depths], points, info)
-    call copy_fields(points, int(count), names, fields, all_names, all_fields, info)
+    call copy_results(points, int(count), names, results, all_names, all_results, info)
     if (.not. info%failed()) call fuge_write_volume(from_c_string(path), int(nx), int(ny), spacings(1), spacings(2), &
-                                                    levels, all_names, all_fields, info, first_centre(origin))
+                                                    levels, all_names, all_results, info, first_centre(origin))
     status = report_to_c(info, message, length)
   end function c_write_volume
 
@@ -220,33 +220,33 @@ contains
     centre = place
   end function first_centre
 
-  !> Copy the names of `count` fields of n values and the fields, unless an error is known already.
-  subroutine copy_fields(n, count, names, fields, all_names, all_fields, info)
+  !> Copy the names of `count` results of n values and the results, unless an error is known already.
+  subroutine copy_results(n, count, names, results, all_names, all_results, info)
     integer, intent(in) :: n, count
-    type(c_ptr), intent(in) :: names, fields
+    type(c_ptr), intent(in) :: names, results
     character(len=NAME_LENGTH), allocatable, intent(out) :: all_names(:)
-    real(c_double), allocatable, intent(out) :: all_fields(:, :)
+    real(c_double), allocatable, intent(out) :: all_results(:, :)
     type(fuge_info), intent(inout) :: info
-    type(c_ptr), pointer :: name(:), field(:)
+    type(c_ptr), pointer :: name(:), address(:)
     real(c_double), pointer :: values(:)
     integer :: k, status
 
     call require_pointer(names, 'names', info)
-    call require_pointer(fields, 'fields', info)
+    call require_pointer(results, 'results', info)
     if (info%failed()) return
-    allocate (all_names(count), all_fields(n, count), stat=status)
-    call require_memory(status, 'a copy of '//text(count)//' fields of', n, 'values', info)
+    allocate (all_names(count), all_results(n, count), stat=status)
+    call require_memory(status, 'a copy of '//text(count)//' results of', n, 'values', info)
     if (status /= 0) return
     call c_f_pointer(names, name, [count])
-    call c_f_pointer(fields, field, [count])
+    call c_f_pointer(results, address, [count])
     do k = 1, count
       call require_pointer(name(k), 'names['//index_text(k)//']', info)
-      call require_pointer(field(k), 'fields['//index_text(k)//']', info)
+      call require_pointer(address(k), 'results['//index_text(k)//']', info)
       if (info%failed()) return
       all_names(k) = from_c_string(name(k))
-      call c_f_pointer(field(k), values, [n])
-      all_fields(:, k) = values
+      call c_f_pointer(address(k), values, [n])
+      all_results(:, k) = values
     end do
-  end subroutine copy_fields
+  end subroutine copy_results
 
 end module fuge_c_surfaces

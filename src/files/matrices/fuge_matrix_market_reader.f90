@@ -21,7 +21,7 @@ module fuge_matrix_market_reader
   !> Least number of bytes of an entry, its line feed included.
   integer(int64), parameter :: SHORTEST_ENTRY = 6_int64, SHORTEST_VALUE = 2_int64
 
-  !> Columns, or positions of a dense matrix, that need not have entries.
+  !> With up to this many columns, or positions of a dense matrix, a file is read however few entries it has.
   integer(int64), parameter :: EMPTY_ROOM = 10000000_int64
 
   !> A Matrix Market file that is read entry by entry.
@@ -183,8 +183,8 @@ contains
     call refuse_end(source, info)
   end subroutine check_length
 
-  !> Refuse sizes that need `room` for more positions than EMPTY_ROOM and than the entries let expect, `filled`: a
-  !> header alone would decide how much memory is taken.
+  !> Refuse sizes that need `room` for more than EMPTY_ROOM positions and for more than `filled`, the most that the
+  !> number of entries justifies. Otherwise a damaged header alone could take any amount of memory.
   pure subroutine check_room(source, room, filled, info)
     type(matrix_file), intent(in) :: source
     real(dp), intent(in) :: room, filled

@@ -23,10 +23,11 @@ module fuge_draft_sets
     !> Label, face (of a surface only), line and file of each member; of a range the first and the last label, GENERATED
     !> and the step.
     type(integer_list) :: label, face, line, file
-    !> The set takes members of others: `known` are its own, with ranges as negative faces by their numbers.
+    !> The set takes members of others. Then `known` has the members that it has already, to take each one once; a range
+    !> is in it as a negative face, its number in `ranges`.
     logical, private :: tracked = .false.
     type(row_table), private :: known, ranges
-    !> Of other sets, with the face: how many of their members were taken, and their `state` then.
+    !> The sets from which members were taken, each with the face: the number of members taken, and the `state` then.
     type(row_table), private :: sources
     type(integer_list), private :: taken, state
   contains

@@ -120,7 +120,7 @@ contains
                      //trim(draft%types%name(block%element_type)), info)
   end subroutine check_last_element
 
-  !> A keyword: what are the data lines under it?
+  !> Find what the data lines under a keyword are, `content`, and where they belong, `block`.
   subroutine begin_block(deck, draft, block, content, info)
     type(input_deck), intent(inout) :: deck
     type(mesh_draft), intent(inout) :: draft

@@ -11,7 +11,7 @@ module fuge_mesh_writer
     FUGE_ERR_SIZE
   use fuge_text_writer, only: text_output
   use fuge_vtk_cells, only: vtk_cell, vtk_node, CELL_UNKNOWN
-  use fuge_vtk_fields, only: begin_values, begin_vtk, check_name, end_vtk, put_array, put_length, put_vector, whole
+  use fuge_vtk_results, only: begin_values, begin_vtk, check_name, end_vtk, put_array, put_length, put_vector, whole
   implicit none
   private
 

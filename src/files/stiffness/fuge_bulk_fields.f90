@@ -16,6 +16,8 @@ module fuge_bulk_fields
     logical :: continues = .false.
     !> The line is blank or a comment.
     logical :: skipped = .false.
+    !> A line of free fields has more than its card can hold.
+    logical :: excess = .false.
     integer :: count = 0
     integer :: first(8) = 1
     integer :: last(8) = 0
@@ -81,7 +83,20 @@ contains
       call trim_field(line, begin, finish, fields%first(k), fields%last(k))
       begin = finish + 2
     end do
+    if (begin <= len(line)) fields%excess = is_beyond_marker(line(begin:))
   end subroutine split_free
+
+  !> Is there more behind the last data field than the marker of a continuation, which does not begin like a number?
+  pure function is_beyond_marker(rest) result(beyond)
+    character(len=*), intent(in) :: rest
+    logical :: beyond
+    integer :: comma, first
+
+    comma = index(rest//',', ',')
+    beyond = verify(rest(comma:), ', '//achar(9)//achar(13)) > 0
+    first = verify(rest(:comma - 1), ' '//achar(9))
+    if (first > 0 .and. .not. beyond) beyond = scan(rest(first:first), '0123456789-.') > 0
+  end function is_beyond_marker
 
   !> line(begin:finish) without blanks at its ends.
   pure subroutine trim_field(line, begin, finish, first, last)

@@ -74,7 +74,7 @@ contains
     keyword = lower_case(word) == '*matrix'
   end function is_matrix_keyword
 
-  !> Hold the number of columns of a line against that of the first entry.
+  !> Refuse a line that has not as many columns as the first entry, whose number becomes `columns`.
   pure subroutine check_columns(line, found, columns, reason)
     character(len=*), intent(in) :: line
     integer, intent(in) :: found

@@ -27,7 +27,7 @@ module fuge_stiffness_entries
     integer :: rows = 0
     !> The names of the rows, if the entries have them; row and column are then numbers in this table.
     type(row_table) :: names
-    !> An entry that the file does not hold is zero; otherwise it may be that of the other triangle.
+    !> The file has both triangles: an entry that is missing is zero. Otherwise it may be that of the other triangle.
     logical :: whole = .false.
   contains
     procedure :: append

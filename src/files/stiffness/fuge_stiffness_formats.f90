@@ -55,7 +55,7 @@ contains
     call file%rewind()
   end subroutine recognise_format
 
-  !> The format by the first line that is neither blank nor a comment, FUGE_STIFFNESS_ANY of one that is.
+  !> The format to which line `number` belongs; FUGE_STIFFNESS_ANY if it is blank or a comment, which tells nothing.
   pure subroutine recognise_line(line, number, format)
     character(len=*), intent(in) :: line
     integer, intent(in) :: number

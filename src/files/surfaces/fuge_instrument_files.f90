@@ -88,7 +88,7 @@ contains
     if (ending == '.plux') format = 'a Sensofar file (plux)'
   end function archive_format
 
-  !> Has the beginning no NUL and no control character but tabs, ends of lines and pages, and that of a file?
+  !> Is the beginning text? It has no control characters but tabs, line ends, form feeds and DOS's end-of-file mark.
   pure function is_text(content)
     character(len=*), intent(in) :: content
     logical :: is_text
@@ -104,7 +104,7 @@ contains
     end do
   end function is_text
 
-  !> Refuse a file that is not text (FUGE_ERR_FILE), with the way out.
+  !> Refuse a file that is not text (FUGE_ERR_FILE); the message says how its heights can be read.
   pure subroutine refuse_instrument(file, info)
     type(text_file), intent(in) :: file
     type(fuge_info), intent(inout) :: info

@@ -158,7 +158,7 @@ contains
     if (column /= form%columns) reason = text(column)//' value(s), but the first row has '//text(form%columns)
   end subroutine read_row
 
-  !> Columns that are separated in two ways: decimal commas, perhaps.
+  !> Say why a row with two kinds of separators is refused: the commas may be decimal ones.
   pure subroutine explain_separators(form, separator, reason)
     type(row_form), intent(in) :: form
     integer, intent(in) :: separator

@@ -36,7 +36,7 @@ module fuge_text_reader
   end type text_file
 
   interface
-    !> Not 0: there is a device, a pipe or a folder. (fuge_output_file.c)
+    !> 1 if the path leads to a device, a pipe or a folder, else 0 (fuge_output_file.c).
     function input_is_special(path) bind(c, name='fuge_input_is_special') result(special)
       import :: c_char, c_int
       character(kind=c_char), intent(in) :: path(*)

@@ -1,7 +1,7 @@
 !> Height, pressure and gap of a measured surface: for ParaView, or as a table that gnuplot draws.
 module surface_fields
   use command_line, only: refuse
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, fuge_surface, fuge_write_fields, FUGE_ERR_MEMORY
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, fuge_surface, fuge_write_results, FUGE_ERR_MEMORY
   use text_table, only: table
   implicit none
   private
@@ -54,9 +54,9 @@ contains
       call write_map(path, surface, fields, info)
       return
     end if
-    call fuge_write_fields(path, nx, size(surface%height, 2), surface%spacing_x, surface%spacing_y, &
-                           [character(len=8) :: 'height', 'pressure', 'gap'], fields, of_file, &
-                           origin=[surface%origin_x, surface%origin_y])
+    call fuge_write_results(path, nx, size(surface%height, 2), surface%spacing_x, surface%spacing_y, &
+                            [character(len=8) :: 'height', 'pressure', 'gap'], fields, of_file, &
+                            origin=[surface%origin_x, surface%origin_y])
     if (of_file%failed()) info = of_file
   end subroutine write_fields
 

@@ -137,11 +137,11 @@ static void test_volume(void) {
   const double stress[6] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, depth[3] = {0.0, 0.5, 2.0}, back_up[3] = {0.0, 2.0, 0.5};
   const double spacing[2] = {0.5, 2.0}, origin[2] = {10.0, 20.0};
   const char *const names[1] = {"zz"};
-  const double *const fields[1] = {stress};
+  const double *const results[1] = {stress};
   char message[256] = "", *bytes, *values;
   size_t length;
   double back[6];
-  CHECK_DONE(fuge_write_volume(NAME, 2, 1, spacing, origin, 3, depth, 1, names, fields, message, sizeof message));
+  CHECK_DONE(fuge_write_volume(NAME, 2, 1, spacing, origin, 3, depth, 1, names, results, message, sizeof message));
   bytes = read_file(&length);
   CHECK_CONTAINS(bytes, "<RectilinearGrid WholeExtent=\"0 1 0 0 0 2\">");
   CHECK_CONTAINS(bytes, "Name=\"zz\" format=\"appended\" offset=\"0\"");
@@ -158,11 +158,11 @@ static void test_volume(void) {
     CHECK_NEAR(back[2], 2.0, 0.0);
   }
   free(bytes);
-  CHECK_SAYS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 3, back_up, 1, names, fields, message, sizeof message),
+  CHECK_SAYS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 3, back_up, 1, names, results, message, sizeof message),
              FUGE_ERR_GRID, message, "depth(2) = 0.5");
-  CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 0, depth, 1, names, fields, NULL, 0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 3, NULL, 1, names, fields, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_write_volume(NAME, 32768, 32768, spacing, NULL, 3, depth, 1, names, fields, message,
+  CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 0, depth, 1, names, results, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_volume(NAME, 2, 1, spacing, NULL, 3, NULL, 1, names, results, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_volume(NAME, 32768, 32768, spacing, NULL, 3, depth, 1, names, results, message,
                sizeof message), FUGE_ERR_SIZE);
 }
 
@@ -170,11 +170,12 @@ static void test_fields(void) {
   const double height[2] = {1.0, 2.0}, pressure[2] = {0.5, -3.0}, bad[2] = {0.0, HUGE_VAL};
   const double spacing[2] = {0.5, 2.0}, origin[2] = {10.0, 20.0}, flat[2] = {1.0, 0.0};
   const char *const names[2] = {"height", "p & q"}, *const same[2] = {"a", "a"}, *const none[2] = {"a", NULL};
-  const double *const fields[2] = {height, pressure}, *const infinite[2] = {height, bad}, *const no_field[2] = {height, NULL};
+  const double *const results[2] = {height, pressure}, *const infinite[2] = {height, bad};
+  const double *const no_result[2] = {height, NULL};
   char message[256] = "", *bytes, *values;
   size_t length;
   double back[2];
-  CHECK_DONE(fuge_write_fields(NAME, 2, 1, spacing, origin, 2, names, fields, message, sizeof message));
+  CHECK_DONE(fuge_write_results(NAME, 2, 1, spacing, origin, 2, names, results, message, sizeof message));
   bytes = read_file(&length);
   CHECK_CONTAINS(bytes, "WholeExtent=\"0 2 0 1 0 0\"");
   CHECK_CONTAINS(bytes, "Origin=\" 9.75");
@@ -186,21 +187,23 @@ static void test_fields(void) {
     CHECK_VALUES(back, 0.0, 0.5, -3.0);
   }
   free(bytes);
-  CHECK_DONE(fuge_write_fields(NAME, 2, 1, spacing, NULL, 1, names, fields, NULL, 0));
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, same, fields, message, sizeof message), FUGE_ERR_OPTION);
-  CHECK_CONTAINS(message, "fields 0 and 1");
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, none, fields, message, sizeof message), FUGE_ERR_POINTER);
+  CHECK_DONE(fuge_write_results(NAME, 2, 1, spacing, NULL, 1, names, results, NULL, 0));
+  CHECK_STATUS(fuge_write_results(NAME, 2, 1, spacing, NULL, 2, same, results, message, sizeof message),
+               FUGE_ERR_OPTION);
+  CHECK_CONTAINS(message, "names 0 and 1");
+  CHECK_STATUS(fuge_write_results(NAME, 2, 1, spacing, NULL, 2, none, results, message, sizeof message),
+               FUGE_ERR_POINTER);
   CHECK_STRING(message, "names[1] is NULL");
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, names, no_field, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_SAYS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, names, infinite, message, sizeof message),
-             FUGE_ERR_NOT_FINITE, message, "field \"p & q\": value(1)");
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, flat, NULL, 2, names, fields, NULL, 0), FUGE_ERR_WIDTH);
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 0, spacing, NULL, 2, names, fields, NULL, 0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_write_fields(NAME, 65536, 65536, spacing, NULL, 2, names, fields, NULL, 0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 0, names, fields, NULL, 0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, NULL, NULL, 2, names, fields, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, NULL, fields, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_write_fields(NAME, 2, 1, spacing, NULL, 2, names, NULL, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_results(NAME, 2, 1, spacing, NULL, 2, names, no_result, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_SAYS(fuge_write_results(NAME, 2, 1, spacing, NULL, 2, names, infinite, message, sizeof message),
+             FUGE_ERR_NOT_FINITE, message, "result \"p & q\": value(1)");
+  CHECK_STATUS(fuge_write_results(NAME, 2, 1, flat, NULL, 2, names, results, NULL, 0), FUGE_ERR_WIDTH);
+  CHECK_STATUS(fuge_write_results(NAME, 2, 0, spacing, NULL, 2, names, results, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_results(NAME, 65536, 65536, spacing, NULL, 2, names, results, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_results(NAME, 2, 1, spacing, NULL, 0, names, results, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_write_results(NAME, 2, 1, NULL, NULL, 2, names, results, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_results(NAME, 2, 1, spacing, NULL, 2, NULL, results, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_write_results(NAME, 2, 1, spacing, NULL, 2, names, NULL, NULL, 0), FUGE_ERR_POINTER);
   remove(NAME);
 }
 
@@ -209,7 +212,7 @@ static void test_full_disk(void) {
   enum { LARGE = 60 };
   static double values[LARGE * LARGE];
   const char *const name = "p";
-  const double *const field = values;
+  const double *const result = values;
   const double spacing[2] = {1.0, 1.0};
   char message[256] = "";
   FILE *full = fopen("/dev/full", "wb");
@@ -219,7 +222,7 @@ static void test_full_disk(void) {
     CHECK_STATUS(fuge_write_surface("/dev/full", n, n, NULL, values, message, sizeof message), FUGE_ERR_FILE);
     CHECK_CONTAINS(message, "\"/dev/full\" cannot be written: ");
     message[0] = '\0';
-    CHECK_SAYS(fuge_write_fields("/dev/full", n, n, spacing, NULL, 1, &name, &field, message, sizeof message),
+    CHECK_SAYS(fuge_write_results("/dev/full", n, n, spacing, NULL, 1, &name, &result, message, sizeof message),
                FUGE_ERR_FILE, message, "\"/dev/full\" cannot be written: ");
   }
 }

@@ -1,34 +1,34 @@
-!> Fields on a regular grid, or on several depths below one, as a file for ParaView, with the numbers as they are.
+!> Results on a regular grid, or on several depths below one, as a file for ParaView, with the numbers as they are.
 !>
 !> Grids are VTK image data (VTI), grids at depths rectilinear grids (VTR).
-module fuge_field_files
+module fuge_result_files
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_GRID, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
   use fuge_text_writer, only: text_output
-  use fuge_vtk_fields, only: begin_values, begin_vtk, check_fields, end_vtk, number_pair, put_array, put_field_list, &
-    put_fields
+  use fuge_vtk_results, only: begin_values, begin_vtk, check_results, end_vtk, number_pair, put_array, &
+    put_result_list, put_results
   implicit none
   private
 
-  public :: fuge_write_fields, fuge_write_volume
+  public :: fuge_write_results, fuge_write_volume
 
 contains
 
-  !> Write fields on a grid of rectangular cells to a VTI file, which ParaView reads; an existing file is replaced.
+  !> Write results on a grid of rectangular cells to a VTI file, which ParaView reads; an existing file is replaced.
   !>
-  !> `nx`, `ny`: numbers of cells; `spacing_x`, `spacing_y`: their sizes. `names` (k): of the fields, different, without
-  !> trailing blanks. `fields` (nx*ny, k): their values, one for each cell, in the order i + nx*(j - 1); all finite.
+  !> `nx`, `ny`: numbers of cells; `spacing_x`, `spacing_y`: their sizes. `names` (k): of the results, different, no
+  !> trailing blanks. `results` (nx*ny, k): their values, one for each cell, in the order i + nx*(j - 1); all finite.
   !> `origin` (2, default 0): the centre of cell (1, 1). Values are written as doubles, to the last bit.
   !> Errors: FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION for a name, an existing file unchanged;
   !> FUGE_ERR_FILE if writing fails, the file is then empty.
-  !> Nine arguments: the file, the grid, the fields, the report.
-  subroutine fuge_write_fields(path, nx, ny, spacing_x, spacing_y, names, fields, info, origin)
+  !> Nine arguments: the file, the grid, the results, the report.
+  subroutine fuge_write_results(path, nx, ny, spacing_x, spacing_y, names, results, info, origin)
     character(len=*), intent(in) :: path, names(:)
     integer, intent(in) :: nx, ny
-    real(dp), intent(in) :: spacing_x, spacing_y, fields(:, :)
+    real(dp), intent(in) :: spacing_x, spacing_y, results(:, :)
     type(fuge_info), intent(out) :: info
     real(dp), intent(in), optional :: origin(2)
     type(text_output) :: file
@@ -37,29 +37,29 @@ contains
     corner = 0.0_dp
     if (present(origin)) corner = origin
     call check_grid(nx, ny, [spacing_x, spacing_y], corner, info)
-    if (.not. info%failed()) call check_fields(int(nx, int64)*int(ny, int64), text(nx)//' x '//text(ny), names, &
-                                               fields, info)
+    if (.not. info%failed()) call check_results(int(nx, int64)*int(ny, int64), text(nx)//' x '//text(ny), names, &
+                                               results, info)
     if (.not. info%failed()) call file%create(path, info)
     if (info%failed()) return
     corner = corner - 0.5_dp*[spacing_x, spacing_y]
     call write_image_head(file, nx, ny, [spacing_x, spacing_y], corner, names)
-    call put_fields(file, fields)
+    call put_results(file, results)
     call end_vtk(file)
     call file%finish(info)
-  end subroutine fuge_write_fields
+  end subroutine fuge_write_results
 
-  !> Write fields at the centres of the cells of a grid and at several depths below each, such as those of
+  !> Write results at the centres of the cells of a grid and at several depths below each, such as those of
   !> `fuge_halfspace_stress_grid`, to a VTR file, which ParaView reads; an existing file is replaced.
   !>
-  !> `nx`, `ny`, `spacing_x`, `spacing_y`, `names` (k) and `origin` as in `fuge_write_fields`; ny = 1 for a half-plane.
-  !> `depth` (m), ascending, length. `fields` (nx*ny*m, k): one value for each point, those of the first depth
+  !> `nx`, `ny`, `spacing_x`, `spacing_y`, `names` (k) and `origin` as in `fuge_write_results`; ny = 1 for a half-plane.
+  !> `depth` (m), ascending, length. `results` (nx*ny*m, k): one value for each point, those of the first depth
   !> first; all finite. The z of the file is the depth.
-  !> Errors: those of `fuge_write_fields`, FUGE_ERR_GRID for depths that do not ascend, FUGE_ERR_MEMORY.
-  !> Ten arguments: the file, the points, the fields, the report.
-  subroutine fuge_write_volume(path, nx, ny, spacing_x, spacing_y, depth, names, fields, info, origin)
+  !> Errors: those of `fuge_write_results`, FUGE_ERR_GRID for depths that do not ascend, FUGE_ERR_MEMORY.
+  !> Ten arguments: the file, the points, the results, the report.
+  subroutine fuge_write_volume(path, nx, ny, spacing_x, spacing_y, depth, names, results, info, origin)
     character(len=*), intent(in) :: path, names(:)
     integer, intent(in) :: nx, ny
-    real(dp), intent(in) :: spacing_x, spacing_y, depth(:), fields(:, :)
+    real(dp), intent(in) :: spacing_x, spacing_y, depth(:), results(:, :)
     type(fuge_info), intent(out) :: info
     real(dp), intent(in), optional :: origin(2)
     type(text_output) :: file
@@ -71,8 +71,9 @@ contains
     if (present(origin)) first = origin
     call check_grid(nx, ny, [spacing_x, spacing_y], first, info)
     if (.not. info%failed()) call check_depths(depth, info)
-    if (.not. info%failed()) call check_fields(int(nx, int64)*int(ny, int64)*size(depth, kind=int64), &
-                                               text(nx)//' x '//text(ny)//' x '//text(size(depth)), names, fields, info)
+    if (.not. info%failed()) call check_results(int(nx, int64)*int(ny, int64)*size(depth, kind=int64), &
+                                               text(nx)//' x '//text(ny)//' x '//text(size(depth)), names, results, &
+                                               info)
     if (info%failed()) return
     allocate (x(nx, 1), y(ny, 1), stat=stat)
     call require_memory(stat, 'the coordinates of '//text(nx)//' x', ny, 'points', info)
@@ -81,10 +82,10 @@ contains
     x(:, 1) = first(1) + spacing_x*[(real(k, dp), k=0, nx - 1)]
     y(:, 1) = first(2) + spacing_y*[(real(k, dp), k=0, ny - 1)]
     call write_volume_head(file, [nx, ny, size(depth)], names)
-    call put_fields(file, fields)
-    call put_fields(file, x)
-    call put_fields(file, y)
-    call put_fields(file, spread(depth, 2, 1))
+    call put_results(file, results)
+    call put_results(file, x)
+    call put_results(file, y)
+    call put_results(file, spread(depth, 2, 1))
     call end_vtk(file)
     call file%finish(info)
   end subroutine fuge_write_volume
@@ -102,7 +103,7 @@ contains
                   //' 0" Spacing="'//number_pair(spacing)//' 1">')
     call file%put('<Piece Extent="0 '//text(nx)//' 0 '//text(ny)//' 0 0">')
     offset = 0_int64
-    call put_field_list(file, 'CellData', names, int(nx, int64)*int(ny, int64), offset)
+    call put_result_list(file, 'CellData', names, int(nx, int64)*int(ny, int64), offset)
     call file%put('</Piece>')
     call file%put('</ImageData>')
     call begin_values(file)
@@ -121,7 +122,7 @@ contains
     call file%put('<RectilinearGrid WholeExtent="'//extent//'">')
     call file%put('<Piece Extent="'//extent//'">')
     offset = 0_int64
-    call put_field_list(file, 'PointData', names, product(int(points, int64)), offset)
+    call put_result_list(file, 'PointData', names, product(int(points, int64)), offset)
     call file%put('<Coordinates>')
     call put_array(file, 'x', int(points(1), int64), offset)
     call put_array(file, 'y', int(points(2), int64), offset)
@@ -169,4 +170,4 @@ contains
     end if
   end subroutine check_grid
 
-end module fuge_field_files
+end module fuge_result_files

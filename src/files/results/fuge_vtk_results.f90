@@ -1,7 +1,7 @@
-!> What the VTK files of fields share: names and numbers in XML, the list of the fields, and their values after it.
+!> What the VTK files of results share: names and numbers in XML, the list of the results, and their values after it.
 !>
 !> The format: W. Schroeder, K. Martin, B. Lorensen, The Visualization Toolkit, and VTK file formats, docs.vtk.org.
-module fuge_vtk_fields
+module fuge_vtk_results
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
@@ -12,8 +12,8 @@ module fuge_vtk_fields
   implicit none
   private
 
-  public :: begin_values, begin_vtk, check_fields, check_name, check_values, end_vtk, number_pair, put_array, &
-    put_field_list, put_fields, put_length, put_vector, whole
+  public :: begin_values, begin_vtk, check_results, check_name, check_values, end_vtk, number_pair, put_array, &
+    put_result_list, put_results, put_length, put_vector, whole
 
   !> Length of a name; longer ones are refused.
   integer, parameter :: NAME_LENGTH = 200
@@ -30,9 +30,9 @@ contains
                   //'" header_type="UInt64">')
   end subroutine begin_vtk
 
-  !> Write the list of the fields of `points` values each, of which the first begins `offset` bytes after the beginning
+  !> Write the list of the results of `points` values each, of which the first begins `offset` bytes after the beginning
   !> of the values; `section` is CellData or PointData. `offset` moves beyond them.
-  subroutine put_field_list(file, section, names, points, offset)
+  subroutine put_result_list(file, section, names, points, offset)
     type(text_output), intent(inout) :: file
     character(len=*), intent(in) :: section, names(:)
     integer(int64), intent(in) :: points
@@ -46,7 +46,7 @@ contains
       call put_array(file, names(k), points, offset)
     end do
     call file%put('</'//section//'>')
-  end subroutine put_field_list
+  end subroutine put_result_list
 
   !> Write where an array is, which has `components` values (1 unless given) at each of `points` points; `offset` moves
   !> beyond them. `type`: of the numbers, Float64 unless given, Int64 or UInt8.
@@ -95,17 +95,17 @@ contains
     call file%put_bytes(transfer(vector, repeat(' ', 24)))
   end subroutine put_vector
 
-  !> Write the values of fields, (points, k), each after the number of its bytes.
-  subroutine put_fields(file, fields)
+  !> Write the values of results, (points, k), each after the number of its bytes.
+  subroutine put_results(file, results)
     type(text_output), intent(inout) :: file
-    real(dp), intent(in) :: fields(:, :)
+    real(dp), intent(in) :: results(:, :)
     integer :: k
 
-    do k = 1, size(fields, 2)
-      call put_length(file, 8_int64*size(fields, 1, kind=int64))
-      call file%put_reals(fields(:, k))
+    do k = 1, size(results, 2)
+      call put_length(file, 8_int64*size(results, 1, kind=int64))
+      call file%put_reals(results(:, k))
     end do
-  end subroutine put_fields
+  end subroutine put_results
 
   !> Write the last lines of a file.
   subroutine end_vtk(file)
@@ -167,28 +167,28 @@ contains
     call unlock(LOCK_FILES)
   end function whole
 
-  !> Refuse fields of another number of values than `points`, `shape_text` in words (FUGE_ERR_SIZE), NaN and infinity
+  !> Refuse results of another number of values than `points`, `shape_text` in words (FUGE_ERR_SIZE), NaN and infinity
   !> (FUGE_ERR_NOT_FINITE), and names that are blank, repeated, too long or not printable (FUGE_ERR_OPTION).
-  pure subroutine check_fields(points, shape_text, names, fields, info)
+  pure subroutine check_results(points, shape_text, names, results, info)
     integer(int64), intent(in) :: points
     character(len=*), intent(in) :: shape_text, names(:)
-    real(dp), intent(in) :: fields(:, :)
+    real(dp), intent(in) :: results(:, :)
     type(fuge_info), intent(inout) :: info
     integer :: k
 
-    if (size(fields, 2) < 1 .or. size(names) /= size(fields, 2) .or. size(fields, 1, kind=int64) /= points) then
-      call report(info, FUGE_ERR_SIZE, text(size(names))//' name(s) and '//text(size(fields, 2))//' field(s) of ' &
-                  //text(size(fields, 1))//' values: each needs a name and '//shape_text//' values')
+    if (size(results, 2) < 1 .or. size(names) /= size(results, 2) .or. size(results, 1, kind=int64) /= points) then
+      call report(info, FUGE_ERR_SIZE, text(size(names))//' name(s) and '//text(size(results, 2))//' result(s) of ' &
+                  //text(size(results, 1))//' values: each needs a name and '//shape_text//' values')
       return
     end if
     do k = 1, size(names)
       call check_name(names, k, info)
-      if (.not. info%failed()) call check_values(fields(:, k), trim(names(k)), info)
+      if (.not. info%failed()) call check_values(results(:, k), trim(names(k)), info)
       if (info%failed()) return
     end do
-  end subroutine check_fields
+  end subroutine check_results
 
-  !> Refuse name k if it is blank, too long, not printable, or that of an earlier field (FUGE_ERR_OPTION).
+  !> Refuse name k if it is blank, too long, not printable, or that of an earlier result (FUGE_ERR_OPTION).
   pure subroutine check_name(names, k, info)
     character(len=*), intent(in) :: names(:)
     integer, intent(in) :: k
@@ -196,17 +196,17 @@ contains
     integer :: j
 
     if (len_trim(names(k)) < 1 .or. len_trim(names(k)) > NAME_LENGTH) then
-      call report(info, FUGE_ERR_OPTION, 'the name of field '//index_text(k)//' must have 1 to '//text(NAME_LENGTH) &
+      call report(info, FUGE_ERR_OPTION, 'name '//index_text(k)//' must have 1 to '//text(NAME_LENGTH) &
                   //' characters')
     end if
     do j = 1, len_trim(names(k))
       if (iachar(names(k)(j:j)) < 32 .or. iachar(names(k)(j:j)) == 127) then
-        call report(info, FUGE_ERR_OPTION, 'the name of field '//index_text(k)//' has a control character')
+        call report(info, FUGE_ERR_OPTION, 'name '//index_text(k)//' has a control character')
       end if
     end do
     do j = 1, k - 1
       if (names(j) == names(k)) then
-        call report(info, FUGE_ERR_OPTION, 'fields '//index_text(j)//' and '//index_text(k)//' have the same name')
+        call report(info, FUGE_ERR_OPTION, 'names '//index_text(j)//' and '//index_text(k)//' are the same')
       end if
     end do
   end subroutine check_name
@@ -219,7 +219,7 @@ contains
     type(fuge_info) :: found
 
     call check_finite(values, 'value', found)
-    if (found%failed()) call report(info, FUGE_ERR_NOT_FINITE, 'field "'//name//'": '//composed_message(found))
+    if (found%failed()) call report(info, FUGE_ERR_NOT_FINITE, 'result "'//name//'": '//composed_message(found))
   end subroutine check_values
 
-end module fuge_vtk_fields
+end module fuge_vtk_results
