@@ -28,6 +28,7 @@ enum {
                                       info.force_error is above 1e-3 */
   FUGE_WARN_PAIRS = 4,             /* done, but pairs share a node */
   FUGE_WARN_NO_CONTACT = 5,        /* done, but no point touches and all gaps open */
+  FUGE_WARN_CASES = 6,             /* done, but some load cases failed or have a warning */
   FUGE_ERR_SIZE = -1,              /* a size or an index is invalid, or arrays differ in length:
                                       n < 1, lda < n, a range beyond the last entry */
   FUGE_ERR_POINTER = -2,           /* a required pointer is NULL, or an array is not contiguous */
@@ -206,19 +207,26 @@ int fuge_graded_cells(double left, double right, int left_end, int right_end, in
 
 /* ---- edges of contact --------------------------------------------------- */
 
-enum {                          /* kind of an edge; all but the first are edges of cells, because */
+enum {                          /* kind of an edge; all but the first and the last are edges of cells, because */
   FUGE_EDGE_REFINED = 0,        /* extrapolated from the forces, more accurate than the grid */
   FUGE_EDGE_FEW_CELLS = 1,      /* fewer than five cells are in contact */
   FUGE_EDGE_SINGULAR = 2,       /* the pressure does not fall like a square root, as under a
                                    corner */
-  FUGE_EDGE_GRID_END = 3        /* the contact reaches the last cell of the grid */
+  FUGE_EDGE_GRID_END = 3,       /* the contact reaches the last cell of the grid */
+  FUGE_EDGE_LIMITED = 4         /* the force of one of the first five cells is at its limit: estimated
+                                   from the others, to 0.6 cells at worst */
 };
 
 /* The intervals of contact on a half-plane and their edges, from the forces.  For a smooth
  * gap the error of an edge is of third order in the width; of second order, with a small
- * factor, if there are other contacts or the far edge is a corner.
+ * factor, if there are other contacts or the far edge is a corner, and on a bed.
  *   x, width    in   n; a uniform grid, ascending, all widths equal; length
  *   force       in   n; in contact where positive
+ *   state       in   n; from fuge_get_states: needed where forces have limits.  NULL: no force is
+ *                    at its limit
+ *   compliance  in   n, length per force, as in fuge_set_compliance: needed where points have one.
+ *                    On a bed the pressure falls linearly if the bed is soft, and like a square
+ *                    root if it is stiff; the forces decide.  NULL: none
  *   element     in   as for the matrix.  With FUGE_MEAN the gap has to be the mean over
  *                    a cell too; if it is the gap at the centre, use FUGE_HAT, whose
  *                    forces are the same
@@ -237,11 +245,13 @@ enum {                          /* kind of an edge; all but the first are edges 
  * Beyond N = 600 that is more than the error of third order, for the default t = 1e-10.  With
  * fuge_options.tolerance = 1e-13 the edges are as exact as the grid allows, and a solve takes
  * up to a sixth longer.  The estimates see both errors, and grow where the gap is not smooth
- * from cell to cell.  FUGE_ERR_GRID if the grid is not uniform. */
+ * from cell to cell.  FUGE_ERR_GRID if the grid is not uniform, FUGE_ERR_LAW for a negative
+ * compliance. */
 int fuge_contact_edges(int n, const double *x, const double *width, const double *force,
-                       int element, int symmetric, int capacity, double *left, double *right,
-                       double *left_error, double *right_error, int *left_kind,
-                       int *right_kind, int *count, char *message, size_t len);
+                       const int *state, const double *compliance, int element, int symmetric,
+                       int capacity, double *left, double *right, double *left_error,
+                       double *right_error, int *left_kind, int *right_kind, int *count,
+                       char *message, size_t len);
 
 /* ---- operators ---------------------------------------------------------- */
 
@@ -401,6 +411,39 @@ int fuge_set_progress(fuge_solver *s, fuge_progress progress, void *user);
  * FUGE_ERR_OVERFLOW, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED. */
 int fuge_solve(fuge_solver *s);
 
+/* Solve load cases that differ in gaps and loads only, each by one call of fuge_solve in all
+ * but time: by a matrix it starts from the contact set of the case most like it among those
+ * before, with the factor at hand.
+ *   cases      in   number of cases, at least 1
+ *   gap        in   n x cases, column k is case k, displacements by its external loads
+ *                   included; length.  NULL: those of fuge_set_gap
+ *   resultant  in   m x cases, resultants of the motions, and motions that are prescribed.
+ *                   NULL: those of fuge_set_load, fuge_set_approach or fuge_set_modes.
+ *                   Not both NULL
+ *   force      out  n x cases;  gap_out  out  n x cases;  motion  out  m x cases
+ *   status     out  cases: what fuge_solve would have returned.  Each of the four may be NULL
+ * A case that fails harms no other: its columns are left as they are.  The progress function
+ * hears of each case, once: its number from 1, its residual and its contacts.  Returns
+ * FUGE_DONE if all cases are, FUGE_WARN_CASES with the message of the first other one if not.
+ * Errors, nothing is written: FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY,
+ * FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED where ranks share the points.  The results of fuge_solve are not available then. */
+int fuge_solve_cases(fuge_solver *s, int cases, const double *gap, const double *resultant,
+                     double *force, double *gap_out, double *motion, int *status);
+
+/* States of the points (n) and report of one of the cases, which count from 0, and the message
+ * of its solve, as fuge_solver_message.  FUGE_ERR_CALL_ORDER unless fuge_solve_cases was the
+ * last solve, FUGE_ERR_SIZE if there is no such case. */
+int fuge_get_case_states(const fuge_solver *s, int which, int *state);
+int fuge_get_case_info(const fuge_solver *s, int which, fuge_info *info);
+int fuge_case_message(const fuge_solver *s, int which, char *message, size_t len);
+
+/* The smallest and the largest value of each row of `values` (n x cases), such as the forces of
+ * all cases or the displacements of all degrees of freedom, and the first case that has it,
+ * from 0; -1 where all values are NaN, which do not count.  All four are n, each may be NULL.
+ * FUGE_ERR_SIZE, FUGE_ERR_MEMORY. */
+int fuge_find_envelope(int n, int cases, const double *values, double *smallest, double *largest,
+                       int *smallest_case, int *largest_case, char *message, size_t len);
+
 /* Forget results, contact set and history: the next fuge_solve starts from scratch.
  * Operator, options and problem stay. */
 int fuge_reset(fuge_solver *s);
@@ -434,9 +477,8 @@ int fuge_set_excluded(fuge_solver *s, const int *excluded);
  * closes its gap by compliance*f more, c = g + (alpha + D) f - R q with D = diag(compliance).
  *   compliance  in  n, >= 0; length per force.  NULL: none
  * Of a dense operator the solver keeps a copy of the matrix then, with springs, unless the
- * iteration solves.  Every engine and fuge_follow_path know compliances and springs on motions,
- * but ranks do not: FUGE_ERR_UNSUPPORTED.  FUGE_ERR_LAW for a negative one,
- * FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
+ * iteration solves.  Every engine and fuge_follow_path know compliances and springs on motions.
+ * FUGE_ERR_LAW for a negative one, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
 int fuge_set_compliance(fuge_solver *s, const double *compliance);
 
 /* Limits of the forces, such as hardness times area, the yield force of a support or the force
@@ -447,8 +489,8 @@ int fuge_set_compliance(fuge_solver *s, const double *compliance);
  *   limit_upper  in  n, >= 0, of the size of the force at the upper stop, for a tied point of a
  *                    pulling force; likewise
  * Resultants beyond the limits are FUGE_ERR_NO_EQUILIBRIUM of fuge_solve.  Every engine knows
- * limits, and so does fuge_follow_path, but ranks do not: FUGE_ERR_UNSUPPORTED.  FUGE_ERR_LAW
- * for a negative one, FUGE_ERR_NOT_FINITE for NaN. */
+ * limits, and so does fuge_follow_path.  FUGE_ERR_LAW for a negative one, FUGE_ERR_NOT_FINITE
+ * for NaN. */
 int fuge_set_limits(fuge_solver *s, const double *limit, const double *limit_upper);
 
 /* One translation, free under the load F_0 >= 0; force.  With fuge_set_gap(s, gap, NULL)

@@ -25,6 +25,7 @@ class Status(Constants):
     WARN_ILL_CONDITIONED = auto()
     WARN_PAIRS = auto()
     WARN_NO_CONTACT = auto()
+    WARN_CASES = auto()
     ERR_SIZE = auto()
     ERR_POINTER = auto()
     ERR_NOT_FINITE = auto()
@@ -154,6 +155,10 @@ class NoContactWarning(Warning):
     """No point of the bodies is in contact: loads and supports open all gaps."""
 
 
+class CasesWarning(Warning):
+    """Some load cases failed or have a warning; the others have their solutions."""
+
+
 class GridWarning(Warning):
     """The contact reaches the rim of its grid: unless the bodies end there, the grid is too small.
 
@@ -182,6 +187,7 @@ _WARNINGS: dict[Status, type[Warning]] = {
     Status.WARN_ILL_CONDITIONED: IllConditionedWarning,
     Status.WARN_PAIRS: PairsWarning,
     Status.WARN_NO_CONTACT: NoContactWarning,
+    Status.WARN_CASES: CasesWarning,
 }
 
 _PACKAGE = str(Path(__file__).parent)

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import Owner, end_call, interruptible, new_handle, progress_callback
+from fuge._calls import MESSAGE_LENGTH, Owner, end_call, interruptible, new_handle, progress_callback
 from fuge._library import function, struct
 from fuge._messages import in_python
 from fuge._words import Words
+from fuge.cases import Cases
 from fuge.contact import Contact, Derivative, History, Info, info_of
 from fuge.errors import GridWarning, Status, error, warn
 from fuge.operators import DenseOperator, Operator
@@ -287,6 +288,78 @@ class Solver(Owner):
             warn(GridWarning(f"{message}; if they do, ignore fuge.GridWarning (module warnings)", Status.DONE))
         return contact
 
+    def solve_cases(self, gap: ArrayLike | None = None, load: ArrayLike | None = None) -> Cases:
+        """Solve load cases that differ in gaps and loads only, each as :meth:`solve` would, but in less time.
+
+        Parameters
+        ----------
+        gap : array_like, shape (cases, n) or (cases, ...) with that of the operator's grid, optional
+            Gaps of each case, displacements by its external loads included; length. Without it those of
+            :meth:`set_gap`.
+        load : array_like, shape (cases, m), or (cases,) if m = 1, optional
+            Resultants of the motions, and motions that are prescribed. Without it those of the problem. One of both
+            is needed.
+
+        Returns
+        -------
+        Cases
+            A row for each case. A case that fails harms no other: its row is NaN.
+
+        Warns
+        -----
+        CasesWarning
+            Some cases failed or have a warning; see `status` and `message` of the result.
+
+        Raises
+        ------
+        CallOrderError
+            Gaps or motions have not been set.
+        InputError
+            A shape does not fit, or there is no case.
+        CancelledError
+        """
+        cases, code, message = self._solve_cases(gap, load)
+        end_call(code, lambda: message)
+        return cases
+
+    def _solve_cases(self, gap: ArrayLike | None, load: ArrayLike | None) -> tuple[Cases, int, str]:
+        """The solutions of load cases, the status of the call, which is no error, and its message."""
+        m = self.mode_count
+        gaps = None if gap is None else self._case_gaps(_arrays.array("gap", gap))
+        loads = None if load is None else _arrays.array("load", load)
+        if loads is not None:
+            loads = _arrays.doubles("load", loads.reshape(-1, 1) if loads.ndim == 1 and m == 1 else loads, (None, m))
+        sizes = [len(given) for given in (gaps, loads) if given is not None]
+        if not sizes or sizes[0] != sizes[-1]:
+            raise error(Status.ERR_SIZE, "load cases need gap or load, or both with a row for each case")
+        number = sizes[0]
+        force, found = np.full((number, self.n), np.nan), np.full((number, self.n), np.nan)
+        motion, status = np.full((number, m), np.nan), np.zeros(number, dtype=np.intc)
+        state = np.zeros((number, self.n), dtype=np.intc)
+        infos, messages = [], []
+        with interruptible(), self._reading(), self._handle.use() as pointer:
+            code = function("fuge_solve_cases")(pointer, number, gaps, loads, force, found, motion, status)
+            message = in_python(self._read_message(pointer), self._shapes)
+            if code < 0:
+                end_call(code, lambda: message)
+            text = ctypes.create_string_buffer(MESSAGE_LENGTH + 1)
+            for k in range(number):
+                report = struct("fuge_info")
+                self._get_case("fuge_get_case_states", pointer, k, state[k])
+                self._get_case("fuge_get_case_info", pointer, k, ctypes.byref(report))
+                self._get_case("fuge_case_message", pointer, k, text, MESSAGE_LENGTH + 1)
+                infos.append(info_of(report))
+                messages.append(in_python(text.value.decode(errors="replace"), self._shapes))
+        shape = (number, *self._shape)
+        results = force.reshape(shape), found.reshape(shape), motion, state.reshape(shape), status
+        return Cases(*results, tuple(infos), tuple(messages)), code, message
+
+    def _case_gaps(self, gap: NDArray[Any]) -> NDArray[np.float64]:
+        grid = self.operator.grid
+        shapes = [("cases", self.n)] if grid is None else [("cases", *grid), ("cases", self.n)]
+        _arrays.check_shape("gap", gap.shape, *shapes)
+        return _arrays.doubles("gap", gap.reshape(-1, self.n), (None, self.n))
+
     def reset(self) -> None:
         """Forget results, contact set and history: the next solve starts from scratch."""
         self._call("fuge_reset")
@@ -379,6 +452,9 @@ class Solver(Owner):
         self._get("fuge_get_states", pointer, state)
         self._get("fuge_get_info", pointer, ctypes.byref(report))
         return Contact(force, gap, motion, resultant, state, info_of(report), message, self.operator.cells)
+
+    def _get_case(self, name: str, pointer: ctypes.c_void_p, *arguments: Any) -> None:
+        end_call(function(name)(pointer, *arguments), lambda: self._read_message(pointer))
 
     def _get(self, name: str, pointer: ctypes.c_void_p, result: Any) -> None:
         end_call(function(name)(pointer, result), lambda: self._read_message(pointer))

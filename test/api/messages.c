@@ -103,8 +103,8 @@ static int matrix_unequal(char *message, size_t len) {
 }
 
 static int edges_grid(char *message, size_t len) {
-  return fuge_contact_edges(2, X, UNEQUAL, ONES, FUGE_MEAN, 0, 4, reals, reals + 4, reals + 8, reals + 12, ints,
-                            ints + 4, ints + 8, message, len);
+  return fuge_contact_edges(2, X, UNEQUAL, ONES, NULL, NULL, FUGE_MEAN, 0, 4, reals, reals + 4, reals + 8,
+                            reals + 12, ints, ints + 4, ints + 8, message, len);
 }
 
 static int operator_hole(char *message, size_t len) { return fuge_operator_dense(2, HOLE, 2, &op, message, len); }
@@ -390,7 +390,7 @@ static void check_body_message(const fuge_body *b, const char *expected) {
 
 static void test_body_keeps_its_message(void) {
   const double nearly[4] = {1.0, 1.0 - 1e-13, 1.0 - 1e-13, 1.0}, normal[2] = {1.0, 1.0};
-  const int dof[2] = {0, 1}, same[2] = {1, 1}, twice[2] = {1, 1};
+  const int dof[2] = {0, 1}, beyond[2] = {1, 2}, twice[2] = {1, 1};
   double alpha[4];
   fuge_body *b = NULL;
   CHECK_DONE(fuge_body_dense(2, nearly, 2, &b, NULL, 0));
@@ -399,10 +399,10 @@ static void test_body_keeps_its_message(void) {
   check_body_message(b, "fuge_body_condense first");
   CHECK_STATUS(fuge_body_condense(b), FUGE_ERR_SIZE);
   check_body_message(b, "no contact points");
-  CHECK_DONE(fuge_body_set_contact(b, 2, 1, same, normal));
+  CHECK_DONE(fuge_body_set_contact(b, 2, 1, beyond, normal));
   check_body_message(b, "");
   CHECK_STATUS(fuge_body_condense(b), FUGE_ERR_DOF);
-  check_body_message(b, "contact points 0 and 1 are the same: both have degree of freedom 1 ");
+  check_body_message(b, "contact point 1: dof(0) = 2 is not one of the 2 degrees of freedom");
   CHECK_DONE(fuge_body_set_contact(b, 2, 1, dof, normal));
   CHECK_DONE(fuge_body_fix(b, 2, twice, NULL));
   CHECK_STATUS(fuge_body_condense(b), FUGE_ERR_DOF);

@@ -1,14 +1,16 @@
-!> C bindings, section "solver": life cycle, solve.
+!> C bindings, sections "one call" and "solver": life cycle, solve.
 module fuge_c_solver
-  use, intrinsic :: iso_c_binding, only: c_int, c_ptr, c_funptr, c_loc, c_size_t, c_associated, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_funptr, c_loc, c_size_t, c_associated, c_f_pointer
+  use fuge_c_arrays, only: find_array, give
   use fuge_c_monitor, only: c_monitor
-  use fuge_c_operator, only: find_operator, operator_handle
+  use fuge_c_operator, only: find_matrix, find_operator, operator_handle
   use fuge_c_types, only: reporting_handle, options_at, report_to_c, report_to_handle, require_pointer, set_handle, &
     take_handle
+  use fuge_load_cases_type, only: fuge_case_solutions
   use fuge_options_type, only: fuge_options, check_options
   use fuge_point_space, only: point_space
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_solver_type, only: fuge_solver
+  use fuge_solver_type, only: fuge_solver, fuge_solve_dense
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER
   implicit none
   private
@@ -22,6 +24,8 @@ module fuge_c_solver
     type(fuge_problem) :: problem
     type(fuge_solver) :: solver
     type(fuge_solution) :: solution
+    !> States and reports of the load cases, if these were the last solve.
+    type(fuge_case_solutions) :: cases
     type(c_monitor) :: monitor
     !> Report of the last solve.
     type(fuge_info) :: info
@@ -32,6 +36,38 @@ module fuge_c_solver
   end type solver_handle
 
 contains
+
+  !> Ten arguments, as in the header: the matrix with its sizes, three results, the message.
+  function c_solve_dense(n, alpha, lda, gap, load, force, gap_out, approach, message, length) &
+    bind(c, name='fuge_solve_dense') result(status)
+    integer(c_int), intent(in), value :: n, lda
+    type(c_ptr), intent(in), value :: alpha, gap, force, gap_out, approach, message
+    real(c_double), intent(in), value :: load
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: matrix(:, :), initial(:)
+    real(c_double), allocatable :: f(:), c(:)
+    real(c_double) :: v
+    type(fuge_info) :: info
+    integer :: stat
+
+    call find_matrix(n, alpha, lda, matrix, info)
+    call find_array(n, gap, 'gap', initial, info)
+    call require_pointer(force, 'force', info)
+    call require_pointer(gap_out, 'gap_out', info)
+    call require_pointer(approach, 'approach', info)
+    if (.not. info%failed()) then
+      ! Arrays of the caller may overlap.
+      allocate (f(n), c(n), stat=stat)
+      call require_memory(stat, 'the forces and gaps', info)
+    end if
+    if (.not. info%failed()) call fuge_solve_dense(matrix, initial, load, f, c, v, info)
+    status = report_to_c(info, message, length)
+    if (info%failed()) return
+    call give(f, force)
+    call give(c, gap_out)
+    call give(v, approach)
+  end function c_solve_dense
 
   !> The options are checked here, so that the call with the error says so, and again by each
   !> `solve`, since a Fortran caller has no such constructor: four comparisons.
@@ -110,6 +146,7 @@ contains
       call handle%solver%solve(handle%operator%operator, handle%problem, handle%solution, info, handle%options, &
                                handle%monitor)
       handle%solved = .not. info%failed()
+      handle%cases = fuge_case_solutions()
     end if
     if (associated(handle)) then
       handle%info = info
@@ -143,6 +180,7 @@ contains
     if (.not. info%failed()) then
       handle%solved = .false.
       handle%tried = .false.
+      handle%cases = fuge_case_solutions()
       call handle%solver%reset()
     end if
     status = report_to_handle(info, handle)
