@@ -29,7 +29,9 @@ extern "C" {
  * Contact point i moves by u_i = sum over k < width of normal[k + i*width] *
  * u[dof[k + i*width]]: `normal` is the direction in which the contact force acts on the
  * body, into the body; the gap opens by u_i.  For two bodies in one K name the degrees of
- * freedom of both surfaces, with opposite normals. */
+ * freedom of both surfaces, with opposite normals.  Points may move alike, such as a bolt and a
+ * gasket at one node; whether their forces are unique depends on gaps and compliances, and the
+ * solver says so. */
 
 typedef struct fuge_body fuge_body;
 
@@ -104,6 +106,26 @@ int fuge_body_get_modes(const fuge_body *body, double *modes, double *resultant)
  * the forces. */
 int fuge_body_recover(const fuge_body *body, const double *force, const double *motion,
                       double *displacement);
+
+/* Load cases, loads (degrees x cases), column k is case k: what fuge_solve_cases takes.
+ *   displacement  out  n x cases, of the contact points by load and supports; add the gaps; length
+ *   resultant     out  m x cases, of the rigid modes, for fuge_solve_cases; may be NULL if m = 0
+ *   status        out  cases: FUGE_DONE, or why a load cannot be applied, such as
+ *                      FUGE_ERR_NO_EQUILIBRIUM for one that no contact can resist
+ * Each of the three may be NULL.  The columns of a case that is refused are NaN, so that
+ * fuge_solve_cases refuses it too, and the call gives FUGE_WARN_CASES with the message of the
+ * first one.  The load of fuge_body_set_load does not count.  FUGE_ERR_SIZE, FUGE_ERR_MEMORY. */
+int fuge_body_get_cases(fuge_body *body, int cases, const double *loads, double *displacement,
+                        double *resultant, int *status);
+
+/* Displacements (degrees x cases) of all degrees of freedom for the solutions of load cases.
+ *   loads   in  degrees x cases, as above
+ *   force   in  n x cases, motion m x cases (NULL if m = 0), both of fuge_solve_cases
+ *   status  in  cases, of fuge_solve_cases: columns of cases whose status is negative are left
+ *               as they are.  NULL: all cases have a solution
+ * FUGE_WARN_RESIDUAL as fuge_body_recover, for any case. */
+int fuge_body_recover_cases(fuge_body *body, int cases, const double *loads, const double *force,
+                            const double *motion, double *displacement, const int *status);
 
 /* Message of the last call on body; a getter that succeeds leaves that of the call before.
  * At most len bytes are written, always ended by NUL. */
@@ -343,6 +365,128 @@ int fuge_bodies_get_matrix(const fuge_bodies *bodies, int *column, int *row, dou
 /* What fuge_body_set_contact takes, width x n, and initial gaps, plays and areas, n. */
 int fuge_bodies_get_contact(const fuge_bodies *bodies, int *dof, double *normal, double *gap,
                             double *gap_upper, double *area);
+
+/* ---- links of structures ------------------------------------------------
+ *
+ * One-way links of a structure, a truss, a frame or any other body: supports that lift off,
+ * gaps between nodes, cables and struts.  Link k is contact point k.
+ *
+ *     fuge_links_create -> fuge_links_add_... -> fuge_body_set_links -> fuge_body_condense
+ *     -> fuge_body_get_influence, fuge_operator_dense, fuge_solver_new
+ *     -> fuge_links_pose -> fuge_solve -> fuge_body_recover
+ *     or -> fuge_body_get_cases, fuge_links_get_gaps, fuge_solve_cases, fuge_body_recover_cases
+ *     -> fuge_links_free
+ *
+ * Names of links are for messages; NULL stands for "link 1", "link 2" and so on, in the order in
+ * which they are added.  Of longer names 40 bytes are kept. */
+
+typedef struct fuge_links fuge_links;
+
+/* The law of a link; fuge_default_link_law, then change what differs. */
+typedef struct fuge_link_law {
+  double gap;                   /* without load, length; negative: an interference */
+  double play;                  /* from the first stop to a second one, length; HUGE_VAL: none */
+  double compliance;            /* of the link, length per force; 0: rigid */
+  double limit;                 /* of the force at the first stop; HUGE_VAL: none */
+  double limit_upper;           /* likewise at the second */
+} fuge_link_law;
+
+/* Kinds of members. */
+enum { FUGE_TENSION_ONLY = 1, FUGE_COMPRESSION_ONLY = -1 };
+
+/* A straight member without bending, in tension or in compression only. */
+typedef struct fuge_member {
+  int kind;                     /* FUGE_TENSION_ONLY or FUGE_COMPRESSION_ONLY */
+  double area, modulus;         /* of the section, and Young's; both > 0 */
+  double slack;                 /* a cable is longer than the distance of its ends by so much, a
+                                   strut shorter; length.  Negative: it is prestressed */
+  double yield;                 /* force at which it yields; 0: never */
+} fuge_member;
+
+/* Set *law to that of a hard link: no gap, no second stop, no compliance, no limits.  Zeros are
+ * not the defaults. */
+void fuge_default_link_law(fuge_link_law *law);
+
+/* No links.  *links is set on success only.  FUGE_ERR_MEMORY. */
+int fuge_links_create(fuge_links **links, char *message, size_t len);
+
+/* Free and set *links to NULL; NULL and *links == NULL are fine. */
+void fuge_links_free(fuge_links **links);
+
+/* Add a support of a node: it pushes the node along `direction`, and its gap opens when the
+ * node moves along it.
+ *   count      degrees of freedom of the node, 1 .. 6
+ *   dof        which they are, from 0; -1: does not move
+ *   direction  a component for each, of any length but zero
+ *   law        NULL: a hard link
+ *   name       may be NULL
+ * Errors of these three, nothing is added: FUGE_ERR_SIZE, FUGE_ERR_DOF where no degree of
+ * freedom moves along the direction, FUGE_ERR_NOT_FINITE, FUGE_ERR_GAP, FUGE_ERR_LAW,
+ * FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. */
+int fuge_links_add_support(fuge_links *links, int count, const int *dof, const double *direction,
+                           const fuge_link_law *law, const char *name);
+
+/* Add a gap between two nodes: it closes when node a approaches node b along `direction`, which
+ * points from a to b, and its force pushes them apart. */
+int fuge_links_add_gap(fuge_links *links, int count, const int *dof_a, const int *dof_b,
+                       const double *direction, const fuge_link_law *law, const char *name);
+
+/* Add a straight member between two nodes; its force is positive where it carries.  The dof are
+ * displacements of the ends along the axes, the positions have as many components.  The stiffness
+ * matrix must not have the member too: fuge_remove_member. */
+int fuge_links_add_member(fuge_links *links, int dimensions, const int *dof_a, const int *dof_b,
+                          const double *position_a, const double *position_b,
+                          const fuge_member *member, const char *name);
+
+/* Number of links, and their gaps without load, one for each; those of members are their slack. */
+int fuge_links_get_count(const fuge_links *links, int *count);
+int fuge_links_get_gaps(const fuge_links *links, double *gap);
+
+/* The links become the contact points of the body, in place of those of fuge_body_set_contact;
+ * their degrees of freedom are checked by fuge_body_condense.  Links that are added later do not
+ * count.  FUGE_ERR_CALL_ORDER without links, FUGE_ERR_MEMORY. */
+int fuge_body_set_links(fuge_body *body, const fuge_links *links);
+
+/* Pose the problem of the links of a condensed body: the solver, whose operator is the
+ * influence matrix of the body, gets gaps, plays, compliances, limits, rigid modes and their
+ * resultants, in place of all that was set before.  After another load of the body pose it again.
+ * FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY; the message is that of the links. */
+int fuge_links_pose(fuge_links *links, const fuge_body *body, fuge_solver *s);
+
+/* After FUGE_ERR_NO_EQUILIBRIUM of fuge_solve: how the structure moves, because no forces of its
+ * links balance the load.  displacement: one for each degree of freedom, the largest of size 1;
+ * no link closes along them unless its force is at the limit, and the load does work.  All zero
+ * where there is equilibrium.
+ * FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE for the solver of another body, FUGE_ERR_MODES,
+ * FUGE_ERR_MEMORY; the message is that of the body. */
+int fuge_body_find_mechanism(fuge_body *body, const fuge_solver *s, double *displacement);
+
+/* The mechanism in words, which are the message: which links open or give way, and how the
+ * structure moves.
+ *   degrees, u         in  displacements of fuge_body_find_mechanism
+ *   dimensions, nodes  in  2 or 3, and the number of nodes
+ *   position, dof      in  dimensions x nodes: length, and degrees of freedom; -1: does not move
+ * FUGE_ERR_SIZE. */
+int fuge_links_describe(const fuge_links *links, int degrees, const double *u, int dimensions,
+                        int nodes, const double *position, const int *dof, char *message,
+                        size_t len);
+
+/* Take a member, k h h^T, out of a stiffness matrix in compressed columns, as fuge_body_sparse
+ * takes it, so that it does not count twice beside its link.
+ *   value      in, out  the entries
+ *   dof        in       `count` degrees of freedom of both ends, from 0; -1: does not move
+ *   normal     in       how far the member gets longer by each: its direction from the first end
+ *                       to the second at the second end, the negative at the first
+ *   stiffness  in       k = E A/L > 0, force per length
+ * Errors, value is unchanged: FUGE_ERR_SIZE, FUGE_ERR_DOF, FUGE_ERR_NOT_FINITE,
+ * FUGE_ERR_LAW, FUGE_ERR_NOT_DEFINITE where the matrix does not contain the member. */
+int fuge_remove_member(int degrees, const int *column, const int *row, double *value, int count,
+                       const int *dof, const double *normal, double stiffness, char *message,
+                       size_t len);
+
+/* Message of the last call on links that added or posed, or of the last error; as
+ * fuge_body_message. */
+int fuge_links_message(const fuge_links *links, char *message, size_t len);
 
 #ifdef __cplusplus
 }

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import Owner, call, new_handle
+from fuge._calls import Owner, call, end_call, new_handle
+from fuge._library import function
+from fuge._messages import in_python
+from fuge.cases import Cases
 from fuge.columns import compressed, is_sparse, require_sparse, stacked
 from fuge.errors import Status, error
+from fuge.links import Links
+
+if TYPE_CHECKING:
+    from fuge.solver import Solver
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +111,8 @@ class Body(Owner):
     def _create(self, create: str, degrees: int, *arguments: Any) -> None:
         self.degrees = degrees
         self._n = 0
+        self._links: Links | None = None
+        self._solver: Solver | None = None
         self._handle = new_handle("body", create, "fuge_body_free", degrees, *arguments)
 
     def fix(self, dof: ArrayLike, displacement: ArrayLike | None = None) -> None:
@@ -146,6 +155,14 @@ class Body(Owner):
         directions = _arrays.doubles("normal", stacked("normal", normal), (n, width))
         self._call("fuge_body_set_contact", n, width, degrees, directions)
         self._n = n
+        self._links = None
+
+    def set_links(self, links: Links) -> None:
+        """Make the links of a structure the contact points, before :meth:`condense`; then :meth:`solve_cases`."""
+        with links._handle.use() as pointer:
+            self._call("fuge_body_set_links", pointer)
+        self._n = links.count
+        self._links = links
 
     def condense(self) -> Condensed:
         """Condense to the contact points: one Cholesky factorisation and n + 4 solves.
@@ -169,6 +186,7 @@ class Body(Owner):
             K is so close to singular that few digits may be correct.
         """
         self._call("fuge_body_condense")
+        self._solver = None
         n, m = self._n, self._mode_count()
         influence, displacement = np.empty((n, n), order="F"), np.empty(n)
         modes, resultant = np.empty((n, m), order="F"), np.empty(m)
@@ -208,8 +226,96 @@ class Body(Owner):
         self._call("fuge_body_recover", forces, motions, displacement)
         return displacement
 
+    def solve_cases(self, loads: ArrayLike) -> Cases:
+        """Forces of the links and displacements of the structure in load cases, after :meth:`condense`.
+
+        Parameters
+        ----------
+        loads : array_like, shape (cases, degrees)
+            External loads; the load of :meth:`set_load` does not count.
+
+        Returns
+        -------
+        Cases
+            With `displacement`, shape (cases, degrees). A case that fails harms no other: its row is NaN.
+
+        Warns
+        -----
+        CasesWarning
+            Some cases failed or have a warning; see `status` and `message` of the result.
+        ResidualWarning
+            Displacements are out of balance by more than 1e-10 of the forces.
+
+        Raises
+        ------
+        CallOrderError
+            There are no links, or the body has not been condensed, or has changed since.
+        """
+        forces = _arrays.doubles("loads", loads, (None, self.degrees))
+        number = len(forces)
+        solver, links = self._pose()
+        displacement, resultant = np.empty((number, self._n)), np.empty((number, self._mode_count()))
+        refused = np.zeros(number, dtype=np.intc)
+        with self._handle.use() as pointer:
+            code = function("fuge_body_get_cases")(pointer, number, forces, displacement, resultant, refused)
+            message = in_python(self._read_message(pointer), self._shapes)
+            if code < 0:
+                end_call(code, lambda: message)
+        found, solved, remark = solver._solve_cases(displacement + links.gap, resultant if resultant.size else None)
+        if code == 0:
+            code, message = solved, remark
+        for k in np.flatnonzero(refused < 0):
+            found = _refuse(found, int(k), Status(int(refused[k])))
+        moved = np.full(forces.shape, np.nan)
+        self._call("fuge_body_recover_cases", number, forces, found.force, found.motion, moved, found.status)
+        end_call(code, lambda: message)
+        return replace(found, displacement=moved)
+
+    def mechanism(self) -> NDArray[np.float64]:
+        """How the structure moves where no forces of its links balance the load of :meth:`set_load`.
+
+        Returns
+        -------
+        ndarray, shape (degrees,)
+            Displacements along which no link closes, unless its force is at the limit, while the load does work, the
+            largest of size 1; all zero where there is equilibrium. :meth:`Links.describe` puts them into words.
+
+        Raises
+        ------
+        CallOrderError
+            There are no links, or the body has not been condensed, or has changed since.
+        """
+        solver, _ = self._pose()
+        displacement = np.empty(self.degrees)
+        with solver._handle.use() as pointer:
+            self._call("fuge_body_find_mechanism", pointer, displacement)
+        return displacement
+
+    def _pose(self) -> tuple[Solver, Links]:
+        """A solver with the problem of the links, kept until the body is condensed again."""
+        from fuge.solver import Solver
+
+        links = self._links
+        if links is None:
+            raise error(Status.ERR_CALL_ORDER, "the body has no links: call set_links and condense first")
+        if self._solver is None:
+            influence = np.empty((self._n, self._n), order="F")
+            self._call("fuge_body_get_influence", influence, self._n)
+            self._solver = Solver(influence)
+        with self._handle.use() as body, self._solver._handle.use() as solver:
+            links._call("fuge_links_pose", body, solver)
+        return self._solver, links
+
     def _mode_count(self) -> int:
         return self._counts("fuge_body_get_mode_count")[0]
+
+
+def _refuse(cases: Cases, k: int, status: Status) -> Cases:
+    """The cases with the status with which the body has refused load k."""
+    cases.status[k] = status
+    infos, messages = list(cases.info), list(cases.message)
+    infos[k], messages[k] = replace(infos[k], status=status), status.text
+    return replace(cases, info=tuple(infos), message=tuple(messages))
 
 
 def rigid_modes(position: ArrayLike) -> NDArray[np.float64]:

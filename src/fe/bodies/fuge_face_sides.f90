@@ -24,7 +24,7 @@ module fuge_face_sides
   !> Most nodes of one element. A face that is coupled with more of them belongs to a condensed matrix, which
   !> couples all with all.
   integer, parameter :: MOST_NODES = 27
-  !> Numbers of marks for each face, more than it has nodes.
+  !> The mark MOST_MARKS*f + k stands for a coupling with the first k nodes of face f, which are fewer than MOST_MARKS.
   integer, parameter :: MOST_MARKS = 16
 
   !> What is coupled with each degree of freedom of the faces: neighbour(first(i)) .. neighbour(first(i + 1) - 1).

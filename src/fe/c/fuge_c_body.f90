@@ -17,7 +17,7 @@ module fuge_c_body
   implicit none
   private
 
-  public :: copy_supports, new_body
+  public :: copy_supports, find_body, find_condensed, new_body, report_data
 
   !> A stiffness matrix in the caller's memory. fuge_body_condense reads it, when everything is known that it is
   !> checked against.
@@ -50,7 +50,7 @@ module fuge_c_body
   end type band_source
 
   !> Behind struct fuge_body.
-  type, extends(reporting_handle) :: body_handle
+  type, extends(reporting_handle), public :: body_handle
     class(stiffness_source), allocatable :: source
     integer :: degrees = 0
     type(fuge_body) :: body

@@ -18,7 +18,7 @@ module fuge_body_type
   !> Contact point i moves by u_i = sum over k of normal(k,i) u(dof(k,i)), and its contact
   !> force f_i acts on the body as normal(k,i) f_i at dof(k,i): `normal` points into the
   !> body. For a pair of bodies in one stiffness, each column has the degrees of freedom of both
-  !> bodies, with normals of opposite directions.
+  !> bodies, with normals of opposite directions. Points may move alike, such as a bolt and a gasket at one node.
   type, public :: fuge_body
     !> Fixed degrees of freedom. Not allocated: none.
     integer, allocatable :: fixed(:)
@@ -116,7 +116,8 @@ contains
     end do
   end subroutine check_supports
 
-  !> Refuse contact points without data, out of range or repeated.
+  !> Refuse contact points without data or out of range. Points that move alike pass: compliances, gaps and stops decide
+  !> whether their forces are unique, and the solver knows these.
   pure subroutine check_contact(body, degrees, info)
     type(fuge_body), intent(in) :: body
     integer, intent(in) :: degrees
@@ -136,7 +137,6 @@ contains
       call check_point(body%dof(:, i), body%normal(:, i), i, degrees, info)
       if (info%failed()) return
     end do
-    call check_repeated(body, degrees, info)
   end subroutine check_contact
 
   !> Refuse a contact point whose normal is unusable, or whose degrees of freedom are out of range,
@@ -182,62 +182,5 @@ contains
       return
     end do
   end subroutine check_range
-
-  !> Refuse two contact points with parallel displacements, for which alpha is singular. Only
-  !> points with the same lowest degree of freedom are compared.
-  pure subroutine check_repeated(body, degrees, info)
-    type(fuge_body), intent(in) :: body
-    integer, intent(in) :: degrees
-    type(fuge_info), intent(inout) :: info
-    integer, allocatable :: last(:), before(:)
-    integer :: i, j, low, stat
-
-    allocate (last(degrees), before(size(body%dof, 2)), stat=stat)
-    if (stat /= 0) then
-      call report(info, FUGE_ERR_MEMORY, 'no memory to check the contact points')
-      return
-    end if
-    last = 0
-    do i = 1, size(body%dof, 2)
-      low = minval(body%dof(:, i), body%dof(:, i) > 0 .and. abs(body%normal(:, i)) > 0.0_dp)
-      j = last(low)
-      do while (j > 0)
-        if (move_alike(body%dof(:, i), body%normal(:, i), body%dof(:, j), body%normal(:, j))) then
-          call report(info, FUGE_ERR_DOF, 'contact points '//index_text(j)//' and '//index_text(i) &
-                      //' are the same: both have degree of freedom '//index_text(low) &
-                      //' and parallel normals; keep one of them, with gap_upper if the point has two stops')
-          return
-        end if
-        j = before(j)
-      end do
-      before(i) = last(low)
-      last(low) = i
-    end do
-  end subroutine check_repeated
-
-  !> Do two contact points have the same degrees of freedom and parallel normals?
-  pure function move_alike(dof, normal, dof_other, normal_other) result(alike)
-    integer, intent(in) :: dof(:), dof_other(:)
-    real(dp), intent(in) :: normal(:), normal_other(:)
-    logical :: alike
-    real(dp) :: other(size(dof))
-    integer :: k, l, match
-
-    other = 0.0_dp
-    do k = 1, size(dof_other)
-      if (dof_other(k) == 0 .or. .not. abs(normal_other(k)) > 0.0_dp) cycle
-      match = 0
-      do l = 1, size(dof)
-        if (dof(l) == dof_other(k)) match = l
-      end do
-      alike = match > 0
-      if (.not. alike) return
-      other(match) = normal_other(k)
-    end do
-    associate (mine => merge(normal, 0.0_dp, dof > 0))
-      k = maxloc(abs(mine), 1)
-      alike = all(abs(mine/mine(k)*other(k) - other) <= 16.0_dp*epsilon(1.0_dp)*maxval(abs(other)))
-    end associate
-  end function move_alike
 
 end module fuge_body_type

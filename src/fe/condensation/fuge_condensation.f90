@@ -14,6 +14,7 @@
 !> problem. A rigid mode that moves no contact point, such as sliding along a flat one, is left
 !> out; the load must not drive it.
 module fuge_condensation
+  use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use fuge_body_type, only: check_body, check_load_field, fuge_body
   use fuge_condensed_influence, only: find_influence, touched_degrees
   use fuge_contact_modes, only: check_unresisted, find_contact_modes, load_resultant, remove_motions, &
@@ -23,6 +24,7 @@ module fuge_condensation
   use fuge_floating_factor, only: factorise_floating
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
+  use fuge_load_cases_type, only: fuge_case_solutions, fuge_load_cases, move_cases
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_rigid_body_modes, only: check_rigid_modes, choose_pins, find_pin_loads, find_rigid_modes
@@ -43,6 +45,8 @@ module fuge_condensation
   !> Above this smallest eigenvalue more than half of the digits are right in whatever order K is eliminated. Below it
   !> the order that fills least is taken, which loses fewer digits on bodies in one row.
   real(dp), parameter :: ANY_ORDER = 1.0e-8_dp
+  !> Load cases that are solved together.
+  integer, parameter :: COLUMNS = 64
   !> Largest residual of K u = forces that counts as solved, relative to the largest force.
   real(dp), parameter :: RESIDUAL_TOLERANCE = 1.0e-10_dp
 
@@ -64,6 +68,9 @@ module fuge_condensation
     !> Square root of the diagonal of K, (degrees), which makes displacements of any unit
     !> comparable; zero where fixed.
     real(dp), allocatable, private :: scale(:)
+    !> Degrees of freedom without stiffness of a body that floats, as of a node that cables alone hold: each one is a
+    !> rigid mode, and its own pin.
+    integer, allocatable, private :: idle(:)
     !> Z of `modes`, (degrees, m), and the rigid modes that move no contact point.
     real(dp), allocatable, private :: rigid_modes(:, :), unresisted_modes(:, :)
     !> Relative error of the rigid modes.
@@ -74,6 +81,9 @@ module fuge_condensation
     procedure :: pose
     procedure :: recover
     procedure :: set_load
+    procedure :: pose_cases
+    procedure :: recover_cases
+    procedure :: move_rigidly
     procedure :: clear
   end type fuge_condensed
 
@@ -147,6 +157,9 @@ contains
       result%stiffness%columns = size(body%dof, 2)
     end if
     if (.not. (found .or. info%failed())) call factorise(result, pins, info)
+    ! Now that they are held, idle degrees of freedom count like any other.
+    if (.not. info%failed() .and. size(result%idle) > 0) &
+      result%scale(result%idle) = merge(maxval(result%scale), 1.0_dp, maxval(result%scale) > 0.0_dp)
     warning = info
     if (with_alpha .and. .not. info%failed()) &
       call find_influence(body, result%constrained, result%factor, result%alpha, info)
@@ -220,11 +233,204 @@ contains
     if (allocated(problem%motion_stiffness)) deallocate (problem%motion_stiffness)
   end subroutine pose
 
+  !> Pose the contact problem of many load cases: `cases` gets the gaps, `gap` + b, and the resultants w of each, and
+  !> `problem` what `pose` sets, with the first load case.
+  !>
+  !> `gap` (n), initial gaps, length; `loads` (degrees, cases), force: external loads, in place of that of the body,
+  !> whose supports stay displaced as they are. One solve for each case, in blocks. A case that drives a rigid mode
+  !> which no contact resists is marked as refused (FUGE_ERR_NO_EQUILIBRIUM), as is one that is not finite or out of
+  !> range. Errors, `problem` and `cases` unchanged: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
+  subroutine pose_cases(self, gap, loads, problem, cases, info)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(in) :: gap(:), loads(:, :)
+    type(fuge_problem), intent(inout) :: problem
+    type(fuge_load_cases), intent(inout) :: cases
+    type(fuge_info), intent(out) :: info
+    type(fuge_load_cases) :: found
+    type(fuge_problem) :: posed
+    integer :: k, stat
+
+    call check_loads(self, loads, info)
+    if (.not. info%failed()) then
+      posed = problem
+      call self%pose(gap, posed, info)
+    end if
+    if (info%failed()) return
+    allocate (found%gap(size(gap), size(loads, 2)), found%load(posed%mode_count(), size(loads, 2)), &
+              found%refused(size(loads, 2)), stat=stat)
+    call require_memory(stat, 'the gaps of', size(loads, 2), 'load cases', info)
+    if (.not. info%failed()) call condense_loads(self, loads, found, info)
+    if (info%failed()) return
+    do k = 1, size(loads, 2)
+      found%gap(:, k) = gap + found%gap(:, k)
+    end do
+    posed%gap = found%gap(:, 1)
+    if (size(self%resultant) > 0) then
+      posed%resultant = found%load(:, 1)
+    else
+      deallocate (found%load)
+    end if
+    problem = posed
+    call move_cases(found, cases)
+  end subroutine pose_cases
+
+  !> Displacements b of the contact points and resultants w of all load cases, as cases%gap and cases%load.
+  subroutine condense_loads(self, loads, cases, info)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(in) :: loads(:, :)
+    type(fuge_load_cases), intent(inout) :: cases
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: block(:, :)
+    integer :: first, i, k, stat
+
+    allocate (block(size(loads, 1), min(COLUMNS, size(loads, 2))), stat=stat)
+    call require_memory(stat, 'the displacements due to the loads', info)
+    cases%gap = 0.0_dp
+    cases%load = 0.0_dp
+    do first = 1, size(loads, 2), COLUMNS
+      if (info%failed()) return
+      associate (last => min(first + COLUMNS - 1, size(loads, 2)))
+        do k = first, last
+          call check_case(self, loads(:, k), cases%refused(k))
+          block(:, k - first + 1) = 0.0_dp
+          if (.not. cases%refused(k)%failed()) block(:, k - first + 1) = loads(:, k)
+        end do
+        call solve_loads(self, block(:, :last - first + 1), stat)
+        call require_memory(stat, 'the displacements due to the loads', info)
+        if (stat /= 0) return
+        do k = first, last
+          if (cases%refused(k)%failed()) cycle
+          do i = 1, size(cases%gap, 1)
+            cases%gap(i, k) = point_displacement(self%body%dof(:, i), self%body%normal(:, i), block(:, k - first + 1))
+          end do
+          if (size(self%resultant) < 1) cycle
+          cases%load(:, k) = load_resultant(self%rigid_modes, loads(:, k), self%scale, self%mode_error)
+        end do
+      end associate
+    end do
+  end subroutine condense_loads
+
+  !> The report of one load case: can it be applied, and does it drive no rigid mode that no contact resists?
+  subroutine check_case(self, load, info)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(in) :: load(:)
+    type(fuge_info), intent(out) :: info
+
+    call check_load_field(load, size(self%constrained), info)
+    if (info%failed()) return
+    call check_unresisted(self%unresisted_modes, load, self%scale, self%mode_error, info)
+  end subroutine check_case
+
+  !> Replace external loads (degrees, columns) by their displacements, those of the supports included.
+  subroutine solve_loads(self, block, stat)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(inout), contiguous :: block(:, :)
+    integer, intent(out) :: stat
+    real(dp), allocatable :: support_forces(:)
+    integer :: k
+
+    allocate (support_forces(size(block, 1)), stat=stat)
+    if (stat /= 0) return
+    call find_support_forces(self, support_forces, stat)
+    if (stat /= 0) return
+    do k = 1, size(block, 2)
+      block(:, k) = merge(0.0_dp, block(:, k) - support_forces, self%constrained)
+    end do
+    call self%factor%solve(block, stat)
+    do k = 1, size(block, 2)
+      call add_supports(self, block(:, k))
+    end do
+  end subroutine solve_loads
+
+  !> Displacements of all degrees of freedom for the solutions of all load cases, as `recover` for each.
+  !>
+  !> `loads` (degrees, cases) as for `pose_cases`, `u` (degrees, cases), length: NaN in the columns of cases without a
+  !> solution. info%residual is the largest of any case; FUGE_WARN_RESIDUAL if it exceeds 1e-10. Errors, `u` unchanged:
+  !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  subroutine recover_cases(self, loads, solutions, u, info)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(in) :: loads(:, :)
+    type(fuge_case_solutions), intent(in) :: solutions
+    real(dp), intent(inout) :: u(:, :)
+    type(fuge_info), intent(out) :: info
+    real(dp), allocatable :: block(:, :)
+    integer :: first, k, stat
+
+    call check_loads(self, loads, info)
+    if (.not. info%failed()) call check_case_solutions(self, solutions, shape(loads), shape(u), info)
+    if (info%failed()) return
+    allocate (block(size(loads, 1), size(loads, 2)), stat=stat)
+    call require_memory(stat, 'the displacements of', size(loads, 2), 'load cases', info)
+    if (stat /= 0) return
+    do k = 1, size(loads, 2)
+      block(:, k) = 0.0_dp
+      if (solutions%report(k)%failed()) cycle
+      call check_load_field(loads(:, k), size(loads, 1), info)
+      if (.not. info%failed()) call check_finite(solutions%force(:, k), 'force', info)
+      if (.not. info%failed()) call check_finite(solutions%motion(:size(self%resultant), k), 'motion', info)
+      if (info%failed()) return
+      block(:, k) = loads(:, k)
+      call add_contact_forces(self%body, solutions%force(:, k), block(:, k))
+    end do
+    do first = 1, size(loads, 2), COLUMNS
+      call solve_loads(self, block(:, first:min(first + COLUMNS - 1, size(loads, 2))), stat)
+      call require_memory(stat, 'the displacements of', size(loads, 2), 'load cases', info)
+      if (stat /= 0) return
+    end do
+    do k = 1, size(loads, 2)
+      if (solutions%report(k)%failed()) then
+        block(:, k) = ieee_value(1.0_dp, ieee_quiet_nan)
+      else
+        call add_motions(self, solutions%motion(:, k), block(:, k), info)
+        if (.not. info%failed()) call find_residual(self, loads(:, k), solutions%force(:, k), block(:, k), info)
+      end if
+      if (info%failed()) return
+    end do
+    u = block
+  end subroutine recover_cases
+
+  !> Refuse solutions, or displacements, that do not fit the loads and this body.
+  pure subroutine check_case_solutions(self, solutions, loads, displacements, info)
+    class(fuge_condensed), intent(in) :: self
+    type(fuge_case_solutions), intent(in) :: solutions
+    integer, intent(in) :: loads(2), displacements(2)
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. (allocated(solutions%force) .and. allocated(solutions%motion) .and. allocated(solutions%report))) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'the load cases have no forces: solve them first')
+    else if (any(shape(solutions%force) /= [size(self%displacement), loads(2)]) &
+             .or. size(solutions%motion, 1) < size(self%resultant) .or. size(solutions%motion, 2) /= loads(2) &
+             .or. size(solutions%report) /= loads(2)) then
+      call report(info, FUGE_ERR_SIZE, 'the solutions have '//text(size(solutions%force, 1))//' forces and ' &
+                  //text(size(solutions%motion, 1))//' motions of '//text(size(solutions%force, 2)) &
+                  //' load cases: there are '//text(size(self%displacement))//' contact points, ' &
+                  //text(size(self%resultant))//' motions and '//text(loads(2))//' load cases')
+    else if (any(displacements /= loads)) then
+      call report(info, FUGE_ERR_SIZE, 'u has '//text(displacements(1))//' rows and '//text(displacements(2)) &
+                  //' columns: it needs those of the loads, '//text(loads(1))//' and '//text(loads(2)))
+    end if
+  end subroutine check_case_solutions
+
+  !> Refuse loads that do not fit this body (FUGE_ERR_SIZE), or before there is one (FUGE_ERR_CALL_ORDER).
+  pure subroutine check_loads(self, loads, info)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(in) :: loads(:, :)
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. allocated(self%factor)) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'no body has been condensed: call fuge_condense first')
+    else if (size(loads, 1) /= size(self%constrained) .or. size(loads, 2) < 1) then
+      call report(info, FUGE_ERR_SIZE, 'loads has '//text(size(loads, 1))//' rows and '//text(size(loads, 2)) &
+                  //' columns: it needs a row for each of '//text(size(self%constrained))//' degrees of freedom and ' &
+                  //'a column for each load case')
+    end if
+  end subroutine check_loads
+
   !> Displacements of all degrees of freedom for a solution of the contact problem.
   !>
   !> `u` (degrees), length. Of the solution, the forces and the first m motions are used, with m
-  !> the number of `modes`. Of rigid modes that move no contact point `u` has no part: with them the mean of the squares
-  !> of its displacements, weighted by the diagonal of K, would be larger.
+  !> the number of `modes`. Rigid modes that move no contact point are not part of `u`: its projection on them, with the
+  !> diagonal of K as weights, is subtracted.
   !> info%residual is the largest force that K u leaves unbalanced at a free degree of freedom,
   !> relative to the largest force; FUGE_WARN_RESIDUAL if it exceeds 1e-10.
   !> Errors, `u` unchanged: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
@@ -235,7 +441,7 @@ contains
     real(dp), intent(inout) :: u(:)
     type(fuge_info), intent(out) :: info
     real(dp), allocatable :: block(:, :), forces(:)
-    integer :: j, stat
+    integer :: stat
 
     call check_recovery(self, solution, size(u), info)
     if (info%failed()) return
@@ -249,15 +455,39 @@ contains
     call require_memory(stat, 'the displacements', info)
     if (stat /= 0) return
     block(:, 1) = self%load_displacement + block(:, 1)
-    do j = 1, size(self%rigid_modes, 2)
-      block(:, 1) = block(:, 1) + self%rigid_modes(:, j)*solution%motion(j)
-    end do
-    if (allocated(self%unresisted_modes)) call remove_motions(self%unresisted_modes, self%scale, block(:, 1), stat)
-    call require_memory(stat, 'the displacements', info)
-    if (stat /= 0) return
-    call find_residual(self, solution, block(:, 1), info)
+    call add_motions(self, solution%motion, block(:, 1), info)
+    if (info%failed()) return
+    if (allocated(self%body%load)) then
+      call find_residual(self, self%body%load, solution%force, block(:, 1), info)
+    else
+      forces = 0.0_dp
+      call find_residual(self, forces, solution%force, block(:, 1), info)
+    end if
     if (.not. info%failed()) u = block(:, 1)
   end subroutine recover
+
+  !> Displacements `u` (degrees) of all degrees of freedom by motions (m) in the rigid modes alone, without forces.
+  !> Errors, `u` unchanged: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE.
+  subroutine move_rigidly(self, motion, u, info)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(in) :: motion(:)
+    real(dp), intent(inout) :: u(:)
+    type(fuge_info), intent(out) :: info
+    integer :: j
+
+    if (.not. allocated(self%rigid_modes)) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'no body has been condensed: call fuge_condense first')
+    else if (size(motion) /= size(self%rigid_modes, 2) .or. size(u) /= size(self%rigid_modes, 1)) then
+      call report(info, FUGE_ERR_SIZE, 'there are '//text(size(motion))//' motions and '//text(size(u)) &
+                  //' displacements: this body has '//text(size(self%rigid_modes, 2))//' rigid modes and ' &
+                  //text(size(self%rigid_modes, 1))//' degrees of freedom')
+    end if
+    if (info%failed()) return
+    u = 0.0_dp
+    do j = 1, size(motion)
+      u = u + self%rigid_modes(:, j)*motion(j)
+    end do
+  end subroutine move_rigidly
 
   !> Free the stiffness and its factor, by far the largest part of the memory; the public
   !> components stay. It happens automatically when the variable goes out of scope, but not with
@@ -299,11 +529,28 @@ contains
     end if
   end subroutine check_recovery
 
-  !> The residual of K u = forces, with K itself and not its factor; a warning if it is large.
-  subroutine find_residual(self, solution, u, info)
+  !> Add the displacements by the motions q to `u` (degrees), and leave out those modes that no contact resists. Error:
+  !> FUGE_ERR_MEMORY.
+  subroutine add_motions(self, motion, u, info)
     class(fuge_condensed), intent(in) :: self
-    type(fuge_solution), intent(in) :: solution
-    real(dp), intent(in) :: u(:)
+    real(dp), intent(in) :: motion(:)
+    real(dp), intent(inout) :: u(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: j, stat
+
+    do j = 1, size(self%rigid_modes, 2)
+      u = u + self%rigid_modes(:, j)*motion(j)
+    end do
+    if (.not. allocated(self%unresisted_modes)) return
+    call remove_motions(self%unresisted_modes, self%scale, u, stat)
+    call require_memory(stat, 'the displacements', info)
+  end subroutine add_motions
+
+  !> The residual of K u = forces, with K itself and not its factor, as info%residual if it is the largest so far; a
+  !> warning if it is large. `load` (degrees) external, `force` (n) of the contact.
+  subroutine find_residual(self, load, force, u, info)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(in) :: load(:), force(:), u(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: forces(:), residual(:), product(:), magnitude(:)
     integer :: stat
@@ -312,17 +559,15 @@ contains
     call require_memory(stat, 'the residual', info)
     if (stat /= 0) return
     forces = 0.0_dp
-    call add_contact_forces(self%body, solution%force, forces)
+    call add_contact_forces(self%body, force, forces)
     call self%stiffness%multiply(u, product, magnitude)
-    residual = product - forces
-    magnitude = magnitude + abs(forces)
-    if (allocated(self%body%load)) then
-      residual = residual - self%body%load
-      magnitude = magnitude + abs(self%body%load)
-    end if
+    residual = product - forces - load
+    magnitude = magnitude + abs(forces) + abs(load)
     call unscale(residual, self%scale)
     call unscale(magnitude, self%scale)
-    if (maxval(magnitude) > 0.0_dp) info%residual = maxval(abs(residual))/maxval(magnitude)
+    if (.not. maxval(magnitude) > 0.0_dp) return
+    if (maxval(abs(residual))/maxval(magnitude) <= info%residual) return
+    info%residual = maxval(abs(residual))/maxval(magnitude)
     if (info%residual > RESIDUAL_TOLERANCE) call report(info, FUGE_WARN_RESIDUAL, &
       'the displacements leave degree of freedom '//index_text(maxloc(abs(residual), 1))//' out of balance by ' &
       //text(info%residual)//' of the largest force')
@@ -343,6 +588,7 @@ contains
     if (allocated(self%body%fixed)) self%constrained(self%body%fixed) = .true.
     call find_scale(self, all_scale, info)
     if (.not. info%failed()) call check_free_points(self%body, self%constrained, info)
+    if (.not. info%failed()) self%constrained(self%idle) = .true.
   end subroutine mark_supports
 
   !> Factorise a body that floats, pins included, in an order that gives its rigid modes as well. `found`: false if that
@@ -356,6 +602,7 @@ contains
 
     call factorise_floating(self%stiffness, self%body, self%constrained, self%scale, self%factor, pins, found)
     if (.not. found) return
+    pins = [pins, self%idle]
     self%constrained(pins) = .true.
     call measure(self, pins, quotient, weakest, status)
     found = status == FUGE_DONE .and. quotient > ANY_ORDER
@@ -363,6 +610,7 @@ contains
       self%mode_error = max(self%mode_error, epsilon(quotient)/quotient)
     else
       self%constrained(pins) = .false.
+      self%constrained(self%idle) = .true.
     end if
   end subroutine factorise_once
 
@@ -383,11 +631,13 @@ contains
       allocate (self%rigid_modes(size(all_scale), 0))
     end if
     if (.not. info%failed()) call choose_pins(pin_scale(self%body, self%scale), self%rigid_modes, pins, info)
-    if (.not. info%failed()) self%constrained(pins) = .true.
+    if (info%failed()) return
+    pins = [pins, self%idle]
+    self%constrained(pins) = .true.
   end subroutine constrain
 
-  !> Square roots of the diagonal of K: `all_scale` (degrees), and self%scale, zero where fixed.
-  !> Refuse a free degree of freedom without stiffness.
+  !> Square roots of the diagonal of K: `all_scale` (degrees), and self%scale, zero where fixed. A free degree of
+  !> freedom without stiffness is idle if the body floats, else it is refused.
   subroutine find_scale(self, all_scale, info)
     type(fuge_condensed), intent(inout) :: self
     real(dp), intent(out) :: all_scale(:)
@@ -395,10 +645,13 @@ contains
     integer :: j
 
     call self%stiffness%diagonal(all_scale)
+    call find_idle(self, all_scale, info)
+    if (info%failed()) return
     do j = 1, size(all_scale)
       if (all_scale(j) > 0.0_dp) then
         all_scale(j) = sqrt(all_scale(j))
-      else if (self%constrained(j)) then
+      else if (self%constrained(j) .or. (size(self%idle) > 0 .and. .not. abs(all_scale(j)) > 0.0_dp)) then
+        ! If any are idle, all are that have no stiffness.
         all_scale(j) = 0.0_dp
       else
         call report(info, FUGE_ERR_NOT_DEFINITE, 'degree of freedom '//index_text(j)//' has the stiffness ' &
@@ -408,6 +661,24 @@ contains
     end do
     self%scale = merge(0.0_dp, all_scale, self%constrained)
   end subroutine find_scale
+
+  !> Free degrees of freedom whose rows of K are zero, if the body floats; none if only their diagonal is.
+  subroutine find_idle(self, diagonal, info)
+    type(fuge_condensed), intent(inout) :: self
+    real(dp), intent(in) :: diagonal(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: moved(:), product(:), magnitude(:)
+    integer :: j, stat
+
+    allocate (self%idle(0))
+    if (.not. self%body%floats .or. all(abs(diagonal) > 0.0_dp .or. self%constrained)) return
+    allocate (moved(size(diagonal)), product(size(diagonal)), magnitude(size(diagonal)), stat=stat)
+    call require_memory(stat, '', size(diagonal), 'degrees of freedom', info)
+    if (stat /= 0) return
+    moved = merge(0.0_dp, 1.0_dp, abs(diagonal) > 0.0_dp .or. self%constrained)
+    call self%stiffness%multiply(moved, product, magnitude)
+    if (.not. any(magnitude > 0.0_dp)) self%idle = pack([(j, j=1, size(moved))], moved > 0.0_dp)
+  end subroutine find_idle
 
   !> Factorise with supports and pins; refuse a body that still floats, warn if it nearly does.
   subroutine factorise(self, pins, info)
@@ -497,31 +768,44 @@ contains
     end do
   end subroutine measure
 
-  !> The load and the forces of the displaced supports, `load` (degrees), zero where constrained. `status` is not
+  !> The load less the forces of the displaced supports, `load` (degrees), zero where constrained. `status` is not
   !> FUGE_DONE without memory.
   subroutine set_loads(self, load, status)
     type(fuge_condensed), intent(in) :: self
     real(dp), intent(out) :: load(:)
     integer, intent(out) :: status
-    real(dp), allocatable :: prescribed(:), product(:), magnitude(:)
+    real(dp), allocatable :: support_forces(:)
 
-    status = FUGE_DONE
+    allocate (support_forces(size(load)), stat=status)
+    if (status /= FUGE_DONE) return
+    call find_support_forces(self, support_forces, status)
+    if (status /= FUGE_DONE) return
     load = 0.0_dp
     if (allocated(self%body%load)) load = self%body%load
-    if (allocated(self%body%displacement)) then
-      allocate (prescribed(size(load)), product(size(load)), magnitude(size(load)), stat=status)
-      if (status /= FUGE_DONE) return
-      prescribed = 0.0_dp
-      call add_supports(self, prescribed)
-      call self%stiffness%multiply(prescribed, product, magnitude)
-      load = load - product
-    end if
+    load = load - support_forces
     where (self%constrained) load = 0.0_dp
   end subroutine set_loads
 
+  !> The forces that displace the supports alone, (degrees). `status` is not FUGE_DONE without memory.
+  subroutine find_support_forces(self, forces, status)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(out) :: forces(:)
+    integer, intent(out) :: status
+    real(dp), allocatable :: prescribed(:), magnitude(:)
+
+    status = FUGE_DONE
+    forces = 0.0_dp
+    if (.not. allocated(self%body%displacement)) return
+    allocate (prescribed(size(forces)), magnitude(size(forces)), stat=status)
+    if (status /= FUGE_DONE) return
+    prescribed = 0.0_dp
+    call add_supports(self, prescribed)
+    call self%stiffness%multiply(prescribed, forces, magnitude)
+  end subroutine find_support_forces
+
   !> Add the displacements of the supports to `u` (degrees).
   pure subroutine add_supports(self, u)
-    type(fuge_condensed), intent(in) :: self
+    class(fuge_condensed), intent(in) :: self
     real(dp), intent(inout) :: u(:)
 
     if (allocated(self%body%displacement)) u(self%body%fixed) = u(self%body%fixed) + self%body%displacement
@@ -587,6 +871,7 @@ contains
     call move_alloc(source%factor, destination%factor)
     call move_alloc(source%constrained, destination%constrained)
     call move_alloc(source%scale, destination%scale)
+    call move_alloc(source%idle, destination%idle)
     call move_alloc(source%rigid_modes, destination%rigid_modes)
     call move_alloc(source%unresisted_modes, destination%unresisted_modes)
     call move_alloc(source%load_displacement, destination%load_displacement)

@@ -19,10 +19,10 @@ module fuge_floating_factor
 
   public :: factorise_floating
 
-  !> Degrees of freedom scattered over the bodies, among which the pins are: with 24 a block that floats upon another
-  !> has as many as it needs.
+  !> Number of degrees of freedom, scattered over the bodies, from which pins may be chosen besides those that contact
+  !> touches. 24 are enough for a block that floats upon another one.
   integer, parameter :: SCATTERED = 36
-  !> D over the diagonal of K. As large as the diagonal, it is subtracted without a loss of digits.
+  !> D relative to the diagonal of K. Not larger than the diagonal, so that no digits are lost when it is subtracted.
   real(dp), parameter :: STIFFENING = 1.0_dp
 
 contains

@@ -62,6 +62,11 @@ contains
     error_share = 1.0_dp
     if (present(share)) error_share = share
     free = count(.not. fixed)
+    if (free == 0) then
+      allocate (rigid_modes(size(fixed), 0), stat=status)
+      call require_memory(status, 'the modes of the body', info)
+      return
+    end if
     call stiffness%factorise(fixed, error_share*SHIFT, factor, pivot, weakest, status)
     if (status /= 0) then
       call report(info, status, 'no memory for the factor of the stiffness matrix')

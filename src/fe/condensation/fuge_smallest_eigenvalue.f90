@@ -19,11 +19,12 @@ contains
   !> `quotient`: Rayleigh quotient y^T K y of the softest mode y relative to the magnitude of its
   !> terms, |y|^T |K| |y|; `weakest`: the degree of freedom that y moves most.
   !>
-  !> If the factor ends with a Schur complement, one step from its softest mode is all: enough to see that K is not
-  !> nearly singular, while a small quotient may be several times too large.
+  !> If the factor ends with a Schur complement, a single step from the softest mode of this complement is taken. It is
+  !> enough to see that K is not nearly singular; a small quotient may be several times too large.
   !> `scale` (degrees): square root of the diagonal of K, zero where constrained. `status` is not
   !> zero without memory.
-  !> `loads` (degrees, any number), zero where constrained, become displacements: with the first step they cost little.
+  !> `loads` (degrees, any number), zero where constrained, are replaced by displacements: solved for together with the
+  !> first step, they cost little.
   subroutine find_smallest_eigenvalue(stiffness, factor, scale, loads, quotient, weakest, status)
     class(fuge_stiffness), intent(in) :: stiffness
     class(stiffness_factor), intent(in) :: factor

@@ -22,7 +22,7 @@ module fuge_stiffness_type
     !> Degrees of freedom to eliminate last, not constrained, so that the factor ends with that of their Schur
     !> complement. Not allocated: any order. A storage that cannot choose its order ignores them.
     integer, allocatable :: last(:)
-    !> Number of solves that the order of `last` saves; it is taken if it costs less than them.
+    !> Number of solves that are saved if `last` is eliminated last: that order is used if it costs less than these.
     integer :: columns = 0
     !> The diagonal terms of `last` are multiplied by 1 + `stiffening` before the factorisation.
     real(dp) :: stiffening = 0.0_dp

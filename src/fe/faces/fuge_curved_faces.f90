@@ -22,7 +22,7 @@ module fuge_curved_faces
 
   !> Steps of Newton's iteration for a point across, from the one across on the face itself.
   integer, parameter :: STEPS = 4
-  !> A place moves by at most this on the way: faces are as close to their curved surfaces.
+  !> Largest change of a place by Newton's iteration: faces are closer to their curved surfaces than that.
   real(dp), parameter :: FAR = 0.25_dp
 
 contains

@@ -226,7 +226,7 @@ contains
     end if
   end subroutine face_sides
 
-  !> For a corner that has no normal of its own, one of 180 degrees.
+  !> The sum of the unit normals at all nodes of a face, for a corner of 180 degrees, which has no normal of its own.
   pure function middle_normal(face) result(normal)
     type(face_nodes), intent(in) :: face
     real(dp) :: normal(3)

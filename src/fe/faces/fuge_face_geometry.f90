@@ -59,9 +59,9 @@ contains
     x = matmul(face%x(:, :face%count), values(:face%count))
   end function face_position
 
-  !> Give a face the unit normals of a curved surface at its nodes, (3, count); where they are across it, it is not
-  !> bent, nor where they look nearly along it. A normal that leans by more than 60 degrees from that of the face at the
-  !> node is replaced by the latter.
+  !> Give a face the unit normals of a curved surface at its nodes, (3, count). The face stays flat if all of them are
+  !> perpendicular to it, or one is nearly parallel to it. A normal that leans by more than 60 degrees from that of the
+  !> face at the node is replaced by the latter.
   pure subroutine bend(face, normal)
     type(face_nodes), intent(inout) :: face
     real(dp), intent(in) :: normal(:, :)

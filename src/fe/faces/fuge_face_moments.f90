@@ -73,7 +73,7 @@ contains
     end do
   end function nowhere_negative
 
-  !> How the displacement in the sense of N'_A follows from those of the nodes: a row for A of factors for each node.
+  !> The matrix that turns the displacements of the nodes into the coefficients of the N'_A of the same field.
   pure function unmixed(kind, count) result(factor)
     integer, intent(in) :: kind, count
     real(dp) :: factor(MOST_NODES, MOST_NODES)

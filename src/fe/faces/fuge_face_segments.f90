@@ -140,7 +140,8 @@ contains
     end do
   end function cut
 
-  !> A convex polygon has no more corners than fit; rounding could make one more, of no area, which is left out.
+  !> Add a corner to a convex polygon, which has room for all. Rounding could give one more, which adds no area and is
+  !> left out.
   pure subroutine add_corner(piece, corner)
     type(convex_polygon), intent(inout) :: piece
     real(dp), intent(in) :: corner(2)

@@ -17,9 +17,9 @@ module fuge_common_points
   real(dp), parameter :: GAP_ROUNDING = 1.0e-12_dp
   !> Rows whose factors, without unit, differ by less than this are the same.
   real(dp), parameter :: SAME = 1.0e-10_dp
-  !> A degree of freedom with a factor below this fraction of the largest one does not count when rows are looked up.
-  !> Near 1, so that what is across from a large face is not all found under one of its nodes; not a ratio that meshes
-  !> have.
+  !> Rows are looked up by their smallest degree of freedom with a factor of at least this fraction of the largest one.
+  !> The fraction is near 1, so that not all points across from one large face are listed under the same node, and it is
+  !> no ratio that occurs in meshes, so that rounding does not change the list.
   real(dp), parameter :: LARGE = 0.917_dp
 
 contains

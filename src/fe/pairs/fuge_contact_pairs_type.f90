@@ -32,8 +32,8 @@ module fuge_contact_pairs_type
     !> For FUGE_NORMALS_GIVEN: outwards from the contact surface at each of its nodes, of any length,
     !> (dimensions, nodes).
     real(dp), allocatable :: normal(:, :)
-    !> How far apart, or one inside the other, opposite points may be, length. Not above 0: as far as the surfaces
-    !> extend.
+    !> Largest distance of opposite points from each other, outside or inside the body, length. Not above 0: the extent
+    !> of the surfaces.
     real(dp) :: reach = 0.0_dp
     !> Play between the lower and the upper stop, length: 0 for points that stay in contact but slide, huge or infinite
     !> for one-sided contact.

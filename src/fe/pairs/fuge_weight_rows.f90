@@ -1,6 +1,6 @@
 !> Rows of weights that grow as they are added to: a sparse matrix under construction. Each entry has a weight along the
-!> direction of its row, which is not known yet, and one along each axis. In a long row a column may have several
-!> entries, which are to be summed: adding takes no longer there than in others.
+!> direction of its row, which is not known yet, and one along each axis. A long row may have several entries of one
+!> column, which are to be summed, so that adding to it takes no longer than adding to a short one.
 module fuge_weight_rows
   use fuge_growing_arrays, only: make_room
   use fuge_kinds, only: dp
@@ -9,7 +9,7 @@ module fuge_weight_rows
 
   public :: add_weight, copy_row, row_length, start_rows
 
-  !> A column is looked for among this many entries of a row, the newest ones.
+  !> At most this many entries of a row, the newest ones, are searched for a column.
   integer, parameter :: LOOKED_AT = 256
 
   type, public :: weight_rows

@@ -223,6 +223,38 @@ static void test_supports(void) {
   fuge_body_free(&body);
 }
 
+/* A bolt and a gasket at one node: a mass on a spring of stiffness 10, pulled away by 6, is held by
+ * a bolt of stiffness 30, and from a gap of 0.1 on by a gasket of stiffness 20. */
+static void test_points_that_move_alike(void) {
+  const double k = 10.0, load = 6.0, normal[2] = {-1, -1}, slack[2] = {0.0, 0.1}, compliance[2] = {1.0 / 30, 1.0 / 20};
+  const int dof[2] = {0, 0};
+  double alpha[4], b[2], gap[2], force[2], u;
+  fuge_body *body = NULL;
+  fuge_operator *op = NULL;
+  fuge_solver *solver = NULL;
+
+  CHECK_DONE(fuge_body_dense(1, &k, 1, &body, NULL, 0));
+  CHECK_DONE(fuge_body_set_load(body, &load));
+  CHECK_DONE(fuge_body_set_contact(body, 2, 1, dof, normal));
+  CHECK_DONE(fuge_body_condense(body));
+  CHECK_DONE(fuge_body_get_influence(body, alpha, 2));
+  CHECK_DONE(fuge_body_get_displacement(body, b));
+  for (int i = 0; i < 2; i++) gap[i] = slack[i] + b[i];
+  CHECK_DONE(fuge_operator_dense(2, alpha, 2, &op, NULL, 0));
+  CHECK_DONE(fuge_solver_new(op, NULL, &solver, NULL, 0));
+  CHECK_DONE(fuge_set_gap(solver, gap, NULL));
+  CHECK_DONE(fuge_set_compliance(solver, compliance));
+  CHECK_DONE(fuge_set_approach(solver, 0.0));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_force(solver, force));
+  CHECK_VALUES(force, 1e-13, 4.0, 2.0 / 3.0);
+  CHECK_DONE(fuge_body_recover(body, force, NULL, &u));
+  CHECK_NEAR(u, 8.0 / 60.0, 1e-14);
+  fuge_solver_free(&solver);
+  fuge_operator_free(&op);
+  fuge_body_free(&body);
+}
+
 static void test_bad_calls(void) {
   double k[N * N], x[N] = {0};
   const int dof = 0;
@@ -264,6 +296,7 @@ int main(void) {
   test_floating();
   test_rigid_modes();
   test_supports();
+  test_points_that_move_alike();
   test_bad_calls();
   return check_summary();
 }
