@@ -88,24 +88,24 @@ enum { FUGE_LEVEL_PLANE = 2 };  /* form, besides FUGE_LEVEL_MEAN: the least-squa
 /* Subtract the mean or the plane from height (nx*ny, point i + nx*j), in place. */
 int fuge_level_surface(int nx, int ny, double *height, int form, char *message, size_t len);
 
-/* Write fields, one value for each cell of a grid, for ParaView: a VTI file, doubles as they are.
+/* Write results, one value for each cell of a grid, for ParaView: a VTI file, doubles as they are.
  *   spacing  in  2, sizes of a cell; length      origin  in  2, centre of cell 0; NULL: 0, 0
- *   count    in  number of fields
- *   names    in  count; all different            fields  in  count arrays of nx*ny values
+ *   count    in  number of results
+ *   names    in  count; all different            results in  count arrays of nx*ny values
  * An existing file is replaced.  FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_NOT_FINITE,
  * FUGE_ERR_OPTION for a name, FUGE_ERR_MEMORY, FUGE_ERR_FILE. */
-int fuge_write_fields(const char *path, int nx, int ny, const double *spacing, const double *origin,
-                      int count, const char *const *names, const double *const *fields,
-                      char *message, size_t len);
+int fuge_write_results(const char *path, int nx, int ny, const double *spacing, const double *origin,
+                       int count, const char *const *names, const double *const *results,
+                       char *message, size_t len);
 
 /* The same at the centres of the cells and at several depths, such as the stresses of
  * fuge_halfspace_stress_grid: a VTR file.
- *   depth    in  depths, ascending; length       fields  in  count arrays of nx*ny*depths
+ *   depth    in  depths, ascending; length       results in  count arrays of nx*ny*depths
  *                                                            values, the first depth first
  * ny = 1 for a half-plane.  FUGE_ERR_GRID for depths that do not ascend. */
 int fuge_write_volume(const char *path, int nx, int ny, const double *spacing, const double *origin,
                       int depths, const double *depth, int count, const char *const *names,
-                      const double *const *fields, char *message, size_t len);
+                      const double *const *results, char *message, size_t len);
 
 /* ---- matrix files -------------------------------------------------------
  *
@@ -294,6 +294,75 @@ int fuge_mesh_get_surface_dof(const fuge_mesh *mesh, const char *name, int dimen
 int fuge_mesh_get_set_dof(const fuge_mesh *mesh, const char *name, int along, int rows,
                           const int *node, const int *direction, int capacity, int *dof, int *count,
                           char *message, size_t len);
+
+/* ---- decks --------------------------------------------------------------
+ *
+ * What the deck of a finite element program says beside the mesh and the stiffness matrix:
+ * one-way links between nodes, and load cases with their supports.  Nastran: CGAP with PGAP,
+ * CBUSH1D with PBUSH1D and TABLED1, FORCE, MOMENT, LOAD, SPC, SPC1, SPCADD, SPCD, and SUBCASE,
+ * LOAD =, SPC = of the case control; Abaqus and CalculiX: GAPUNI, GAPCYL, GAPSPHER with *GAP,
+ * *BOUNDARY, *CLOAD, and each static *STEP as a load case.  Contact, springs and loads that are
+ * not read are refused.  The stiffness matrix must not have the links.
+ *
+ * A link opens by direction . (u_b - u_a), where the ground, node 0, does not move: its gap is
+ * gap plus that, and its force f >= 0 acts on node b along the direction, on node a against it. */
+
+typedef struct fuge_deck fuge_deck;
+
+/* Read a deck, whose format is known by its content.  *deck is set on success only.
+ * FUGE_ERR_FILE: the message has the file, the line, the card and the reason; FUGE_ERR_MEMORY. */
+int fuge_read_deck(const char *path, fuge_deck **deck, char *message, size_t len);
+
+/* A deck without links and load cases, for tables.  FUGE_ERR_MEMORY. */
+int fuge_deck_create(fuge_deck **deck);
+
+/* Free and set *deck to NULL; NULL and *deck == NULL are fine. */
+void fuge_deck_free(fuge_deck **deck);
+
+/* Add what a table has; columns between commas, semicolons or blanks, comments from # on:
+ *   links     node_a, node_b, x, y, z, gap, play, stiffness, limit, name; from gap on columns
+ *             may be blank: 0, one-sided, rigid, no limit
+ *   supports  node, directions such as xyz or 123, displacement; of all cases and of the model
+ *   cases     node.direction, such as 17.3, and a force for each case; the first line may name
+ *             them.  They have the supports of the model
+ * FUGE_ERR_FILE with file, line and reason, *deck unchanged; FUGE_ERR_MEMORY. */
+int fuge_deck_read_links(fuge_deck *deck, const char *path, char *message, size_t len);
+int fuge_deck_read_supports(fuge_deck *deck, const char *path, char *message, size_t len);
+int fuge_deck_read_cases(fuge_deck *deck, const char *path, char *message, size_t len);
+
+/* Numbers of links and of load cases.  Either may be NULL. */
+int fuge_deck_get_counts(const fuge_deck *deck, int *links, int *cases);
+
+/* The links: numbers of the nodes in the file, 0 for the ground, unit vectors (3 x links), gap
+ * (length), play (distance of the second stop), compliance (length per force) and limit (force);
+ * INFINITY where there is no second stop or no limit.  Each may be NULL. */
+int fuge_deck_get_links(const fuge_deck *deck, int *node_a, int *node_b, double *direction,
+                        double *gap, double *play, double *compliance, double *limit);
+
+/* Name of link k, card and number such as CGAP 12, and of load case k, such as SUBCASE 3; at
+ * most 80 characters and NUL.  FUGE_ERR_SIZE if there is none. */
+int fuge_deck_get_link_name(const fuge_deck *deck, int k, char *name, size_t name_len);
+int fuge_deck_get_case_name(const fuge_deck *deck, int k, char *name, size_t name_len);
+
+/* Degrees of freedom and normals of the links (6 x links), -1 where the matrix has no row, for
+ * fuge_body_set_contact: link k is contact point k.  node and direction name the `rows` rows of
+ * the matrix, as fuge_read_stiffness gives them, here and below.  FUGE_ERR_SIZE without links;
+ * FUGE_ERR_DOF for rows without names, a row named twice, a link that no row moves, or one at a
+ * node that has no row although nothing holds it; FUGE_ERR_MEMORY. */
+int fuge_deck_get_contact(const fuge_deck *deck, int rows, const int *node, const int *direction,
+                          int *dof, double *normal, char *message, size_t len);
+
+/* External forces of all load cases (rows x cases).  FUGE_ERR_DOF also for a force without a row
+ * where the case does not hold the node; FUGE_ERR_MEMORY. */
+int fuge_deck_get_loads(const fuge_deck *deck, int rows, const int *node, const int *direction,
+                        double *loads, char *message, size_t len);
+
+/* Degrees of freedom that load case k holds, and their displacements.  Only the first `capacity`
+ * are written to dof and displacement, which may be NULL; *count is their number.
+ * FUGE_ERR_SIZE if there is no such case; FUGE_ERR_DOF also for a displacement without a row. */
+int fuge_deck_get_supports(const fuge_deck *deck, int k, int rows, const int *node,
+                           const int *direction, int capacity, int *dof, double *displacement,
+                           int *count, char *message, size_t len);
 
 #ifdef __cplusplus
 }

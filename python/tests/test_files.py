@@ -109,7 +109,7 @@ class Surfaces(InFolder):
     def test_pictures(self):
         field = np.arange(6.0).reshape(2, 3)
         path = self.folder / "f.vti"
-        fuge.write_fields(path, (1.0, 2.0), {"pressure": field, "gap": -field}, origin=(5.0, 6.0))
+        fuge.write_results(path, (1.0, 2.0), {"pressure": field, "gap": -field}, origin=(5.0, 6.0))
         text = path.read_bytes()
         self.assertIn(b'"pressure"', text)
         self.assertIn(field.tobytes(), text)
@@ -119,8 +119,45 @@ class Surfaces(InFolder):
         fuge.write_volume(path, (1.0, 2.0), [0.0, 1.0], {"zz": volume})
         self.assertIn(volume.tobytes(), path.read_bytes())
         with self.assertRaisesRegex(fuge.InputError, "gap"):
-            fuge.write_fields(path, (1.0, 2.0), {"pressure": field, "gap": field.T})
-        self.assertRaises(fuge.InputError, fuge.write_fields, path, (1.0, 2.0), {})
+            fuge.write_results(path, (1.0, 2.0), {"pressure": field, "gap": field.T})
+        self.assertRaises(fuge.InputError, fuge.write_results, path, (1.0, 2.0), {})
+
+
+class Decks(InFolder):
+    text = (
+        "GRID,1\nGRID,2,,0.,0.,2.\nCGAP,12,5,1,2\nPGAP,5,.5,,4.\n"
+        "FORCE,3,2,,2.,0.,0.,-1.\nSPC,4,1,13,.25\n"
+    )
+
+    def test_deck(self):
+        deck = fuge.read_deck(self.file("m.bdf", self.text))
+        self.assertEqual((deck.link_names, deck.case_names), (["CGAP 12"], ["SUBCASE 1"]))
+        np.testing.assert_array_equal(deck.direction, [[0, 0, 1]])
+        np.testing.assert_array_equal([deck.gap, deck.compliance], [[0.5], [0.25]])
+        self.assertTrue(np.isinf(deck.play[0]) and np.isinf(deck.limit[0]))
+        entries = "\n".join(f"{k} {k} 1.0" for k in range(1, 5))
+        names = self.file("k.dof", "1.1\n1.3\n2.1\n2.3\n")
+        market = f"%%MatrixMarket matrix coordinate real symmetric\n4 4 4\n{entries}\n"
+        stiffness = fuge.read_stiffness(self.file("k.mtx", market), names_path=names)
+        dof, normal = deck.contact(stiffness)
+        np.testing.assert_array_equal(dof, [[-1, -1, 3, -1, -1, 1]])
+        np.testing.assert_array_equal(normal, [[0, 0, 1, 0, 0, -1]])
+        np.testing.assert_array_equal(deck.loads(stiffness), [[0, 0, 0, -2]])
+        held, displacement = deck.supports(0, stiffness)
+        np.testing.assert_array_equal(np.sort(held), [0, 1])
+        np.testing.assert_array_equal(displacement, [0.25, 0.25])
+        self.assertRaises(fuge.InputError, deck.supports, 1, stiffness)
+
+    def test_tables(self):
+        deck = fuge.Deck()
+        self.assertEqual(deck.link_names, [])
+        deck.read_links(self.file("links.csv", "0,2,0,-3,0,1,2,0,5,rope\n"))
+        deck.read_supports(self.file("supports.csv", "2,x\n"))
+        deck.read_cases(self.file("cases.csv", "row,wind\n2.1,8\n"))
+        self.assertEqual((deck.link_names, deck.case_names), (["rope"], ["wind"]))
+        np.testing.assert_array_equal([deck.play, deck.limit], [[2], [5]])
+        with self.assertRaisesRegex(fuge.FileError, "line 1: the stiffness is negative"):
+            deck.read_links(self.file("wrong.csv", "0,2,0,-3,0,1,2,-1\n"))
 
 
 class Meshes(InFolder):

@@ -1,6 +1,11 @@
-!> The public interface of the component files: files of profiles, surfaces, matrices, meshes and results.
+!> The public interface of the component files: files of profiles, surfaces, matrices, meshes, decks
+!> and results.
 module fuge_files
-  use fuge_field_files, only: fuge_write_fields, fuge_write_volume
+  use fuge_deck_files, only: fuge_read_deck
+  use fuge_deck_rows, only: fuge_deck_contact, fuge_deck_links, fuge_deck_loads, fuge_deck_supports
+  use fuge_deck_tables, only: fuge_read_cases, fuge_read_links, fuge_read_supports
+  use fuge_deck_type, only: fuge_deck, fuge_deck_case, fuge_deck_link, fuge_deck_value
+  use fuge_result_files, only: fuge_write_results, fuge_write_volume
   use fuge_matrix_market_reader, only: fuge_read_matrix, fuge_read_sparse
   use fuge_matrix_market_writer, only: fuge_write_matrix, fuge_write_sparse
   use fuge_mesh_files, only: fuge_read_mesh

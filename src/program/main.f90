@@ -6,10 +6,11 @@ program fuge_program
   use chosen_stiffness, only: STORAGE
   use chosen_transforms, only: TRANSFORMS
   use command_line, only: arguments
+  use deck_problem, only: solve_deck
   use fuge, only: fuge_info, FUGE_VERSION
   use matrix_problem, only: solve_body, solve_influence
   use mesh_problem, only: solve_meshes
-  use option_checks, only: check_options, WITH_ALPHA, WITH_MATRICES, WITH_MESHES, WITH_SURFACE
+  use option_checks, only: check_options, WITH_ALPHA, WITH_DECK, WITH_MATRICES, WITH_MESHES, WITH_SURFACE
   use option_table, only: HELP
   use progress_log, only: progress
   use surface_problem, only: solve_surface
@@ -76,6 +77,8 @@ contains
       call solve_body(given, log, info)
     case (WITH_MESHES)
       call solve_meshes(given, log, info)
+    case (WITH_DECK)
+      call solve_deck(given, log, info)
     case (WITH_SURFACE)
       call solve_surface(given, log, info)
     end select

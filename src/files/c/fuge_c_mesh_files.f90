@@ -60,7 +60,7 @@ contains
     deallocate (mesh)
   end subroutine c_mesh_free
 
-  !> The mesh behind a handle, the argument `name`; unless an error is known already, NULL is one.
+  !> The mesh behind a handle, the argument `name`; NULL is an error, unless one is known already.
   subroutine find_mesh(handle, name, mesh, info)
     type(c_ptr), intent(in) :: handle
     character(len=*), intent(in) :: name

@@ -10,20 +10,27 @@ module option_checks
   public :: check_input, check_options
 
   !> What is asked for.
-  integer, parameter, public :: WITH_ALPHA = 1, WITH_MATRICES = 2, WITH_MESHES = 3, WITH_SURFACE = 4
-  character(len=*), parameter :: NEEDED(4) = [character(len=24) :: '--alpha', '--stiffness', '--mesh and --pair', &
-    '--surface']
+  integer, parameter, public :: WITH_ALPHA = 1, WITH_MATRICES = 2, WITH_MESHES = 3, WITH_SURFACE = 4, &
+    WITH_DECK = 5
+  character(len=*), parameter :: NEEDED(5) = [character(len=24) :: '--alpha', '--stiffness', '--mesh and --pair', &
+    '--surface', '--deck or --links']
 
-  !> What each of these options needs: one of the four.
+  !> What each of these options needs: one of the five.
   character(len=12), parameter :: ONLY_ALPHA(3) = [character(len=12) :: 'modes', 'motion', 'resultant']
   character(len=12), parameter :: ONLY_MATRICES(4) = [character(len=12) :: 'contact', 'external', 'fixed', 'floats']
-  character(len=12), parameter :: ONLY_MESHES(14) = [character(len=12) :: 'body', 'clearance', 'crease', 'faceted', &
-    'loads', 'matrix', 'mesh', 'node-to-face', 'normals', 'pair', 'reach', 'support', 'supports', 'tied']
+  character(len=12), parameter :: ONLY_MESHES(11) = [character(len=12) :: 'body', 'clearance', 'crease', 'faceted', &
+    'loads', 'node-to-face', 'normals', 'pair', 'reach', 'support', 'tied']
+  character(len=12), parameter :: MESHES_OR_DECK(3) = [character(len=12) :: 'matrix', 'mesh', 'supports']
+  character(len=12), parameter :: ONLY_DECK(3) = [character(len=12) :: 'cases', 'deck', 'links']
+  character(len=12), parameter :: NOT_DECK(5) = [character(len=12) :: 'approach', 'exclude', 'gap', 'load', 'play']
   character(len=12), parameter :: ONLY_SURFACE(11) = [character(len=12) :: 'boundary', 'element', 'fill', &
     'height-scale', 'level', 'modulus', 'poisson', 'scale', 'spacing', 'surface', 'young']
   character(len=12), parameter :: NOT_ALPHA(2) = [character(len=12) :: 'field', 'rows']
   character(len=12), parameter :: LAWS(3) = [character(len=12) :: 'compliance', 'limit', 'limit-upper']
   character(len=12), parameter :: NOT_SURFACE(5) = [character(len=12) :: 'approach', 'exclude', 'gap', 'play', 'rows']
+
+  !> Options that bodies may have each, but a deck once.
+  character(len=12), parameter :: SINGLE(5) = [character(len=12) :: 'matrix', 'mesh', 'rows', 'stiffness', 'supports']
 
   !> Options whose value is the path of a result.
   character(len=*), parameter :: RESULTS(2) = ['output', 'field ']
@@ -41,10 +48,14 @@ contains
     if (given%has('mesh') .or. given%has('pair')) kind = WITH_MESHES
     if (given%has('alpha')) kind = WITH_ALPHA
     if (given%has('surface')) kind = WITH_SURFACE
-    if (count([given%has('alpha'), given%has('stiffness') .or. given%has('mesh'), given%has('surface')]) /= 1) then
+    if (given%has('deck') .or. given%has('links')) kind = WITH_DECK
+    if (count([given%has('alpha'), given%has('stiffness') .or. given%has('mesh') .or. kind == WITH_DECK, &
+               given%has('surface')]) /= 1) then
       call refuse('one of --alpha, --stiffness and --surface is needed', info)
     else if (kind == WITH_SURFACE) then
       call check_surface(given, info)
+    else if (kind == WITH_DECK) then
+      call check_deck(given, info)
     else if (kind == WITH_MESHES) then
       call check_meshes(given, info)
     else
@@ -53,10 +64,12 @@ contains
     if (kind /= WITH_ALPHA) call check_absent(given, ONLY_ALPHA, NEEDED(WITH_ALPHA), info)
     if (kind /= WITH_MATRICES) call check_absent(given, ONLY_MATRICES, '--stiffness without --mesh', info)
     if (kind /= WITH_MESHES) call check_absent(given, ONLY_MESHES, NEEDED(WITH_MESHES), info)
+    if (kind /= WITH_MESHES .and. kind /= WITH_DECK) call check_absent(given, MESHES_OR_DECK, NEEDED(WITH_MESHES), info)
+    if (kind /= WITH_DECK) call check_absent(given, ONLY_DECK, NEEDED(WITH_DECK), info)
     if (kind /= WITH_SURFACE) call check_absent(given, ONLY_SURFACE, NEEDED(WITH_SURFACE), info)
-    if (kind == WITH_ALPHA .or. kind == WITH_MATRICES) &
+    if (kind /= WITH_MESHES .and. kind /= WITH_SURFACE) &
       call check_absent(given, ['pressure'], trim(NEEDED(WITH_MESHES))//', or '//NEEDED(WITH_SURFACE), info)
-    if (kind == WITH_SURFACE .or. kind == WITH_MESHES) call check_absent(given, LAWS, '--alpha or --contact', info)
+    if (kind /= WITH_ALPHA .and. kind /= WITH_MATRICES) call check_absent(given, LAWS, '--alpha or --contact', info)
     if (kind == WITH_SURFACE) call check_absent(given, NOT_SURFACE, 'matrices or meshes', info)
     if (kind == WITH_ALPHA) call check_absent(given, NOT_ALPHA, NEEDED(WITH_MATRICES), info)
     if (.not. info%failed()) call check_results(given, info)
@@ -86,6 +99,19 @@ contains
     call check_single(given, 'play', info)
     call check_single(given, 'stiffness', info)
   end subroutine check_matrices
+
+  subroutine check_deck(given, info)
+    type(arguments), intent(in) :: given
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    if (.not. given%has('stiffness')) call refuse('--stiffness is needed: the matrix of the structure without its ' &
+                                                  //'one-way links', info)
+    call check_absent(given, NOT_DECK, 'another problem than --deck and --links', info)
+    do k = 1, size(SINGLE)
+      call check_single(given, trim(SINGLE(k)), info)
+    end do
+  end subroutine check_deck
 
   subroutine check_surface(given, info)
     type(arguments), intent(in) :: given

@@ -6,13 +6,12 @@ module option_table
   public :: may_repeat, option_number, takes_value
 
   !> The names of the options, after two hyphens.
-  character(len=12), parameter, public :: OPTION_NAMES(49) = [character(len=12) :: &
-    'alpha', 'approach', 'body', 'boundary', 'clearance', 'compliance', 'contact', 'crease', 'element', 'exclude', &
-    'external', 'faceted', 'field', 'fill', 'fixed', 'floats', 'gap', 'height-scale', 'help', 'level', 'limit', &
-    'limit-upper', 'load', 'loads', &
-    'matrix', 'mesh', 'modes', 'modulus', 'motion', 'node-to-face', 'normals', 'output', 'pair', 'play', 'poisson', &
-    'pressure', 'reach', 'resultant', 'rows', 'scale', 'spacing', 'stiffness', 'support', 'supports', 'surface', &
-    'tied', 'verbose', 'version', 'young']
+  character(len=12), parameter, public :: OPTION_NAMES(52) = [character(len=12) :: &
+    'alpha', 'approach', 'body', 'boundary', 'cases', 'clearance', 'compliance', 'contact', 'crease', 'deck', &
+    'element', 'exclude', 'external', 'faceted', 'field', 'fill', 'fixed', 'floats', 'gap', 'height-scale', 'help', &
+    'level', 'limit', 'limit-upper', 'links', 'load', 'loads', 'matrix', 'mesh', 'modes', 'modulus', 'motion', &
+    'node-to-face', 'normals', 'output', 'pair', 'play', 'poisson', 'pressure', 'reach', 'resultant', 'rows', &
+    'scale', 'spacing', 'stiffness', 'support', 'supports', 'surface', 'tied', 'verbose', 'version', 'young']
   !> Those without a value.
   character(len=12), parameter :: WITHOUT_VALUE(8) = [character(len=12) :: &
     'faceted', 'fill', 'floats', 'help', 'node-to-face', 'tied', 'verbose', 'version']
@@ -21,18 +20,19 @@ module option_table
     'body', 'clearance', 'crease', 'exclude', 'faceted', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', &
     'normals', 'pair', 'play', 'pressure', 'reach', 'rows', 'stiffness', 'support', 'supports', 'tied']
   !> Those whose value is the path of an input.
-  character(len=12), parameter, public :: INPUTS(17) = [character(len=12) :: &
-    'alpha', 'compliance', 'contact', 'external', 'fixed', 'gap', 'limit', 'limit-upper', 'loads', 'mesh', 'modes', &
-    'play', 'resultant', 'rows', 'stiffness', 'supports', 'surface']
+  character(len=12), parameter, public :: INPUTS(20) = [character(len=12) :: &
+    'alpha', 'cases', 'compliance', 'contact', 'deck', 'external', 'fixed', 'gap', 'limit', 'limit-upper', 'links', &
+    'loads', 'mesh', 'modes', 'play', 'resultant', 'rows', 'stiffness', 'supports', 'surface']
 
   !> What `fuge --help` prints.
-  character(len=*), parameter, public :: HELP(87) = [character(len=96) :: &
+  character(len=*), parameter, public :: HELP(99) = [character(len=96) :: &
     'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
     '', &
     '  fuge --mesh FILE --stiffness FILE [--mesh FILE --stiffness FILE ..] --pair SURFACE:SURFACE', &
     '       [--support NODES:DIRECTION] [--load NODES:DIRECTION=F] [--output FILE] [--field FILE]', &
     '  fuge --stiffness FILE --contact FILE --gap FILE [MOTION] [--output FILE] [--field FILE]', &
     '  fuge --alpha FILE --gap FILE MOTION [--output FILE]', &
+    '  fuge --deck FILE --stiffness FILE [--output FILE] [--field FILE]', &
     '  fuge --surface FILE --pressure P[,P..] --modulus E [--output FILE] [--field FILE]', &
     '  fuge JOB', &
     '', &
@@ -88,6 +88,16 @@ module option_table
     '  --resultant FILE        m        of the contact forces in each motion (both with --alpha)', &
     '  --motion K=Q            motion K is prescribed, instead of its resultant', &
     '', &
+    'One-way links of a structure: gaps, supports that lift off, cables; in all load cases', &
+    '  --deck FILE             links, supports and load cases: bulk data of Nastran, or an input file', &
+    '                          of Abaqus or CalculiX', &
+    '  --links FILE            lines node_a,node_b,x,y,z,gap,play,stiffness,limit; node 0: the ground', &
+    '  --cases FILE            lines node.direction,F[,F..]: a column of forces for each load case', &
+    '  --supports FILE         lines node,xyz[,U]', &
+    '  --stiffness FILE        of the structure without these links, in any format above; with --rows', &
+    '                          and --matrix as above', &
+    '  --mesh FILE             for --field, where the deck has none', &
+    '', &
     'A measured surface, on which a flat rigid body is pressed', &
     '  --surface FILE          heights: lines of a grid, columns x y height, or SDF', &
     '  --pressure P[,P..]      mean pressure on the whole surface, or several', &
@@ -104,8 +114,8 @@ module option_table
     '  --element WHAT          displacements: mean of a cell (default), or at its centre', &
     '', &
     'Results', &
-    '  --output FILE           table of forces, gaps, pressures, of a surface a line for each load;', &
-    '                          without it on standard output', &
+    '  --output FILE           table of forces, gaps, pressures, a line for each load of a surface,', &
+    '                          columns for each load case of links; else on standard output', &
     '  --field FILE            displacements: .vtu for ParaView (meshes), or a table; of a surface', &
     '                          height, pressure, gap under the last load: .vti, or a table x,y,..', &
     '  --verbose               each step, with its time, on standard error', &
@@ -113,7 +123,8 @@ module option_table
     '  --help', &
     '', &
     'Units are yours, as long as they agree. Tables are CSV with comments after #. Exit status 0:', &
-    'done; a warning is on standard error and in the table. 1: an error, which is on standard error.']
+    'done; a warning is on standard error and in the table. 1: an error, which is on standard error;', &
+    'of load cases the table has those that are solved.']
 
 contains
 

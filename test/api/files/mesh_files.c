@@ -150,7 +150,7 @@ static void test_write(void) {
   CHECK_DONE(fuge_write_mesh(NAME, mesh, 2, names, components, NULL, fields, message, sizeof message));
   remove(NAME);
   CHECK_SAYS(fuge_write_mesh(NAME, joined, 2, same, components, elements, fields, message, sizeof message),
-             FUGE_ERR_OPTION, message, "fields 0 and 1 have the same name");
+             FUGE_ERR_OPTION, message, "names 0 and 1 are the same");
   CHECK_SAYS(fuge_write_mesh(NAME, joined, 2, names, elements, elements, fields, message, sizeof message),
              FUGE_ERR_SIZE, message, "components[0] = 0");
   CHECK_MESSAGE(fuge_write_mesh(NAME, joined, 2, names, components, elements, missing, message, sizeof message),

@@ -1,0 +1,151 @@
+!> The case control section of a Nastran deck, the lines before BEGIN BULK: which loads and supports each subcase
+!> selects.
+module fuge_case_control
+  use fuge_entry_numbers, only: read_label
+  use fuge_input_deck, only: input_deck, upper_case
+  use fuge_kinds, only: dp
+  use fuge_number_records, only: number_records
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_text_columns, only: after_blanks
+  implicit none
+  private
+
+  public :: read_case_control
+
+  !> Commands without which the answer would be another one, and which are not read.
+  character(len=12), parameter :: REFUSED(11) = [character(len=12) :: 'SUBCOM', 'SUBSEQ', 'SYM', 'SYMCOM', 'SYMSEQ', &
+    'REPCASE', 'STEP', 'TEMPERATURE', 'TEMP', 'DEFORM', 'LOADSET']
+  !> Longest word of a command, and number, that are looked at.
+  integer, parameter :: WORD_LENGTH = 32
+
+  !> What is selected: subcase, load set, set of supports.
+  type :: selection
+    !> Above the first subcase, for all of them.
+    integer :: common(2) = 0
+    integer :: subcase(3) = 0
+    integer :: place(2) = [1, 0]
+    logical :: inside = .false.
+    integer :: status = 0
+  end type selection
+
+contains
+
+  !> Read the subcases: their numbers, load sets and sets of supports (0: none) are `whole` of each record; that of
+  !> subcase 0 is what all of them select. A deck without BEGIN BULK is bulk data alone, and none of it is read.
+  !> Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
+  pure subroutine read_case_control(deck, subcases, info)
+    type(input_deck), intent(inout) :: deck
+    type(number_records), intent(inout) :: subcases
+    type(fuge_info), intent(inout) :: info
+    type(selection) :: state
+    character(len=:), allocatable :: reason
+    logical :: bulk, exists
+
+    call find_bulk(deck, exists)
+    if (.not. exists) return
+    do
+      call deck%file(1)%advance(exists)
+      if (.not. exists) exit
+      call read_command(deck%file(1)%content(deck%file(1)%first:deck%file(1)%last), deck%file(1)%line, state, &
+                        subcases, bulk, reason)
+      if (allocated(reason)) call deck%refuse(reason, info)
+      if (info%failed() .or. bulk) exit
+    end do
+    if (info%failed()) return
+    if (state%inside) call keep_subcase(state, subcases, reason)
+    state%subcase = [0, state%common]
+    call keep_subcase(state, subcases, reason)
+    if (allocated(reason)) call deck%refuse(reason, info)
+    if (state%status /= 0) call report(info, FUGE_ERR_MEMORY, deck%file(1)%name//': no memory for the subcases')
+  end subroutine read_case_control
+
+  !> Does the deck have a line BEGIN BULK? It is at its beginning again.
+  pure subroutine find_bulk(deck, exists)
+    type(input_deck), intent(inout) :: deck
+    logical, intent(out) :: exists
+
+    do
+      call deck%file(1)%advance(exists)
+      if (.not. exists) exit
+      if (begins_bulk(deck%file(1)%content(deck%file(1)%first:deck%file(1)%last))) exit
+    end do
+    call deck%file(1)%rewind()
+  end subroutine find_bulk
+
+  pure function begins_bulk(line)
+    character(len=*), intent(in) :: line
+    logical :: begins_bulk
+    character(len=WORD_LENGTH) :: start
+
+    start = upper_case(line(after_blanks(line, 1):min(len(line), after_blanks(line, 1) + WORD_LENGTH - 1)))
+    begins_bulk = start(:6) == 'BEGIN ' .and. index(adjustl(start(6:)), 'BULK') == 1
+  end function begins_bulk
+
+  !> One line; `bulk` is true of BEGIN BULK.
+  pure subroutine read_command(line, number, state, subcases, bulk, reason)
+    character(len=*), intent(in) :: line
+    integer, intent(in) :: number
+    type(selection), intent(inout) :: state
+    type(number_records), intent(inout) :: subcases
+    logical, intent(out) :: bulk
+    character(len=:), allocatable, intent(out) :: reason
+    character(len=WORD_LENGTH) :: command, value
+
+    bulk = begins_bulk(line)
+    if (bulk) return
+    call split_command(line, command, value)
+    select case (command)
+    case ('SUBCASE')
+      if (state%inside) call keep_subcase(state, subcases, reason)
+      state%inside = .true.
+      state%place(2) = number
+      state%subcase(2:) = state%common
+      call read_label(trim(value), 'subcase', 1, huge(1), state%subcase(1), reason)
+    case ('LOAD')
+      call read_label(trim(value), 'load set', 1, huge(1), state%subcase(2), reason)
+      if (.not. state%inside) state%common(1) = state%subcase(2)
+    case ('SPC')
+      call read_label(trim(value), 'set of supports', 1, huge(1), state%subcase(3), reason)
+      if (.not. state%inside) state%common(2) = state%subcase(3)
+    case default
+      if (any(command == REFUSED) .and. index(value, 'INIT') + index(value, 'MATE') == 0) &
+        reason = trim(command)//' is not read: give each load case as a SUBCASE with LOAD = and SPC ='
+    end select
+  end subroutine read_command
+
+  !> The command of a line in upper case, and what stands behind it and behind =. Comments begin with $.
+  pure subroutine split_command(line, command, value)
+    character(len=*), intent(in) :: line
+    character(len=*), intent(out) :: command, value
+    integer :: finish, first, k
+
+    command = ''
+    value = ''
+    finish = index(line//'$', '$') - 1
+    do while (finish > 0)
+      if (after_blanks(line(finish:finish), 1) == 1) exit
+      finish = finish - 1
+    end do
+    first = after_blanks(line(:finish), 1)
+    if (first > finish) return
+    k = scan(line(first:finish)//' ', ' =('//achar(9)) + first - 1
+    command = upper_case(line(first:k - 1))
+    if (k > finish) return
+    value = upper_case(line(k:min(finish, k + WORD_LENGTH - 1)))
+    if (index(value, '=') > 0 .and. value(1:1) /= '(') value = value(index(value, '=') + 1:)
+    value = adjustl(value)
+  end subroutine split_command
+
+  pure subroutine keep_subcase(state, subcases, reason)
+    type(selection), intent(inout) :: state
+    type(number_records), intent(inout) :: subcases
+    character(len=:), allocatable, intent(inout) :: reason
+    logical :: is_new
+
+    if (allocated(reason)) return
+    call subcases%append_named(state%place, state%subcase, [real(dp) ::], is_new, state%status)
+    if (.not. is_new .and. state%status == 0) reason = 'subcase '//text(state%subcase(1))//' above is defined twice'
+  end subroutine keep_subcase
+
+end module fuge_case_control
