@@ -25,6 +25,7 @@ Solving: gaps and a load, a prescribed approach, or several rigid motions
 
     solve(operator, gap, load)              one problem; the result is a Contact with its Info
     Solver(operator)                        one solve after the other; a Derivative, and the History of the tableau
+    envelope(values)                        the Envelope of load cases, which Solver and Body solve: Cases
     load_path(alpha, gap, load)             all loads at which a point changes its PointState: a Path
     contact_edges(x, width, force, element) edges finer than the grid: ContactEdges, each of an EdgeKind
     hertz_ellipse                           Hertz in closed form: HertzContact
@@ -34,9 +35,11 @@ Solving: gaps and a load, a prescribed approach, or several rigid motions
 Bodies of finite elements
 
     Body(stiffness).condense()              one body condensed to its contact points: Condensed
+    Links                                   supports that lift off, gaps, cables and struts of a structure
     ElasticBodies().solve()                 several bodies in one call: BodiesContact; join gives JoinedBodies
     ContactPairs, Surface                   contact points of two surfaces whose meshes need not match
     Mesh, read_mesh, join_meshes            meshes, and their pictures for ParaView
+    Deck, read_deck                         one-way links and load cases from decks
     rigid_modes                             rigid motions of nodes
     CompressedColumns                       sparse matrices without scipy
 
@@ -47,7 +50,7 @@ Surfaces, profiles and matrices in files
     read_profile, sample_profile, level_profile
     read_stiffness(path)                    of CalculiX, Abaqus, Nastran or Matrix Market: StiffnessFile
     read_matrix, write_matrix, read_sparse, write_sparse   Matrix Market
-    write_fields, write_volume              pressures, gaps and stresses on grids for ParaView
+    write_results, write_volume              pressures, gaps and stresses on grids for ParaView
 
 Stresses and displacements in the bodies
 
@@ -68,20 +71,23 @@ What can go wrong: each error and warning has a Status and a message that says h
     Error: InputError, MatrixError, EquilibriumError, LimitError, UnsupportedError, CallOrderError, FileError,
         OutOfMemoryError, CallbackError, CancelledError
     Warning: ResidualWarning, NotUniqueWarning, IllConditionedWarning, GridWarning, PairsWarning,
-        NoContactWarning
+        NoContactWarning, CasesWarning
 """
 
 # "as" exports a name, as __all__ would; but with that help(fuge) would have the whole text of each.
 from fuge import _library, plot as plot
 from fuge.bodies import BodiesContact as BodiesContact, ElasticBodies as ElasticBodies, JoinedBodies as JoinedBodies
 from fuge.body import Body as Body, Condensed as Condensed, rigid_modes as rigid_modes
+from fuge.cases import Cases as Cases, Envelope as Envelope, envelope as envelope
 from fuge.cells import Cells as Cells
 from fuge.columns import CompressedColumns as CompressedColumns
 from fuge.contact import Contact as Contact, Derivative as Derivative, History as History, Info as Info
+from fuge.deck import Deck as Deck, read_deck as read_deck
 from fuge.errors import (
     CallbackError as CallbackError,
     CallOrderError as CallOrderError,
     CancelledError as CancelledError,
+    CasesWarning as CasesWarning,
     EquilibriumError as EquilibriumError,
     Error as Error,
     FileError as FileError,
@@ -111,8 +117,8 @@ from fuge.files import (
     read_stiffness as read_stiffness,
     read_surface as read_surface,
     sample_profile as sample_profile,
-    write_fields as write_fields,
     write_matrix as write_matrix,
+    write_results as write_results,
     write_sparse as write_sparse,
     write_surface as write_surface,
     write_volume as write_volume,
@@ -134,6 +140,7 @@ from fuge.halfspace import (
     ring_displacement as ring_displacement,
     ring_matrix as ring_matrix,
 )
+from fuge.links import Links as Links
 from fuge.mesh import Mesh as Mesh, join_meshes as join_meshes, read_mesh as read_mesh
 from fuge.operators import (
     CallbackOperator as CallbackOperator,

@@ -3,13 +3,13 @@
 # cmake -DNM=nm -DARCHIVE=libfuge.a -P no_state.cmake
 #
 # gfortran makes such variables of `save`, of local variables with a value to begin with, and of the length
-# of a function's result that is `character(len=:), allocatable` (slen). Without optimisation it puts constant array
-# constructors (A.65.0) beside them.
+# of a function's result that is `character(len=:), allocatable` (slen). It puts the tables of `select case` with words
+# (jumptable.97.1) beside them, and without optimisation constant array constructors (A.65.0).
 cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
 set(constants "__fuge_.*_MOD___(vtab|def_init)_.*" "__fuge_c_general_MOD_(k|meanings|version)"
-  "A\\.[0-9]+\\.[0-9]+")
+  "(A|jumptable)\\.[0-9]+\\.[0-9]+")
 set(locks "locks|last_stamp|fork_once|registered(\\.[0-9]+)?")
 
 run("nm" "${NM}" "${ARCHIVE}")

@@ -16,7 +16,7 @@ set(list test/unit/untested.txt)
 plant(${list} "fuge_certificate: old\n"
   "untested.txt names fuge_certificate, which has test/unit/core/model/test_certificate.pf\n")
 plant(${list} "fuge_gone: gone\n" "untested.txt names fuge_gone, which does not exist\n")
-plant(${list} "fuge_c_dense: again\n" "untested.txt names fuge_c_dense twice\n")
+plant(${list} "fuge_c_path: again\n" "untested.txt names fuge_c_path twice\n")
 plant(${list} "fuge_silent:\n" "untested.txt gives no reason for fuge_silent\n")
 plant(${list} "fuge_bare\n" "untested.txt: not `module: reason`: fuge_bare\n")
 plant(${list} "fuge_elsewhere: test/api/core/dense.c and test/api/planted.c\n"
