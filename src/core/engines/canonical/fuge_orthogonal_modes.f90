@@ -396,17 +396,26 @@ contains
     logical, intent(in) :: excluded(:)
     type(point_space), intent(in) :: space
     integer, intent(out) :: column
-    real(dp) :: components(size(basis, 2)), rest
-    integer :: j, k
+    real(dp) :: change(size(basis, 2)), components(size(basis, 2)), remainder(1), rest
+    integer :: k, pass
 
-    components = [(sum(basis(:, j), mask=.not. excluded), j=1, size(components))]
-    call space%add(components)
-    rest = 0.0_dp
-    do k = 1, size(basis, 1)
-      rest = max(rest, abs(merge(0.0_dp, 1.0_dp, excluded(k)) - dot_product(basis(k, :), components)))
+    ! What the first sums over many points round off is expressed too; the third pass finds what remains.
+    components = 0.0_dp
+    do pass = 1, 3
+      change = 0.0_dp
+      remainder = 0.0_dp
+      do k = 1, size(basis, 1)
+        rest = merge(0.0_dp, 1.0_dp, excluded(k)) - dot_product(basis(k, :), components)
+        change = change + rest*basis(k, :)
+        remainder = remainder + rest**2
+      end do
+      if (pass == 3) exit
+      call space%add(change)
+      components = components + change
     end do
+    call space%add(remainder)
     column = 0
-    if (space%largest(rest) > CONSTANT_TOLERANCE*space%total(real(size(basis, 1), dp))) return
+    if (remainder(1) > CONSTANT_TOLERANCE**2*space%total(real(count(.not. excluded), dp))) return
     column = maxloc(abs(components), dim=1)
     basis(:, column) = merge(0.0_dp, 1.0_dp, excluded)/sqrt(space%total(real(count(.not. excluded), dp)))
   end subroutine replace_by_constant
