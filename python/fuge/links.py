@@ -32,17 +32,24 @@ class Links(Owner):
     >>> body.set_links(links)
     >>> body.condense()
     >>> cases = body.solve_cases(loads)
+    >>> forces = dict(zip(links.names, cases.force.T))
     """
 
     _message_function = "fuge_links_message"
 
     def __init__(self) -> None:
         self._handle = new_handle("links", "fuge_links_create", "fuge_links_free")
+        self._names: list[str] = []
 
     @property
     def count(self) -> int:
         """Number of links."""
         return self._counts("fuge_links_get_count")[0]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the links, in the order of the forces; 'link 1' and so on where none was given."""
+        return tuple(self._names)
 
     def add_support(
         self,
@@ -82,7 +89,7 @@ class Links(Owner):
         degrees, along = _axes("dof", dof), _components("direction", direction)
         _arrays.check_shape("direction", along.shape, degrees.shape)
         law = _law(gap, play, compliance, limit, limit_upper)
-        self._call("fuge_links_add_support", degrees.size, degrees, along, ctypes.byref(law), _bytes(name))
+        self._add("fuge_links_add_support", name, degrees.size, degrees, along, ctypes.byref(law))
 
     def add_gap(
         self,
@@ -105,7 +112,7 @@ class Links(Owner):
         _arrays.check_shape("dof_b", second.shape, first.shape)
         _arrays.check_shape("direction", along.shape, first.shape)
         law = _law(gap, play, compliance, limit, limit_upper)
-        self._call("fuge_links_add_gap", first.size, first, second, along, ctypes.byref(law), _bytes(name))
+        self._add("fuge_links_add_gap", name, first.size, first, second, along, ctypes.byref(law))
 
     def add_member(
         self,
@@ -155,8 +162,8 @@ class Links(Owner):
         member.area, member.modulus = _arrays.number("area", area), _arrays.number("modulus", modulus)
         member.slack = _arrays.number("slack", slack)
         setattr(member, "yield", _arrays.number("yield_force", yield_force))
-        values = first.size, first, second, place_a, place_b, ctypes.byref(member), _bytes(name)
-        self._call("fuge_links_add_member", *values)
+        values = first.size, first, second, place_a, place_b, ctypes.byref(member)
+        self._add("fuge_links_add_member", name, *values)
 
     @property
     def gap(self) -> NDArray[np.float64]:
@@ -193,6 +200,11 @@ class Links(Owner):
             end_call(code, lambda: message.value.decode(errors="replace"))
         return message.value.decode(errors="replace")
 
+    def _add(self, add: str, name: str | None, *arguments: Any) -> None:
+        """Call a function that adds a link, and remember its name."""
+        self._call(add, *arguments, None if name is None else name.encode())
+        self._names.append(f"link {len(self._names) + 1}" if name is None else name)
+
 
 def _axes(name: str, dof: ArrayLike) -> NDArray[np.intc]:
     return _arrays.integers(name, np.atleast_1d(_arrays.array(name, dof)), (None,))
@@ -208,7 +220,3 @@ def _law(gap: float, play: float, compliance: float, limit: float, limit_upper: 
     law.compliance = _arrays.number("compliance", compliance)
     law.limit, law.limit_upper = _arrays.number("limit", limit), _arrays.number("limit_upper", limit_upper)
     return law
-
-
-def _bytes(name: str | None) -> bytes | None:
-    return None if name is None else name.encode()

@@ -35,6 +35,7 @@ class Structures(unittest.TestCase):
         body, links = cable()
         self.assertEqual(links.count, 1)
         self.assertEqual(links.gap.tolist(), [0.0])
+        self.assertEqual(links.names, ("cable",))
         cases = body.solve_cases([[-6.0, -8.0], [6.0, 8.0]])
         np.testing.assert_allclose(cases.force, [[5.0], [0.0]], atol=1e-13)
         np.testing.assert_allclose(cases.displacement, [[-0.03, -0.04], [0.06, 0.08]], atol=1e-14)
@@ -51,6 +52,7 @@ class Structures(unittest.TestCase):
         body.set_links(links)
         body.condense()
         self.assertEqual(links.gap.tolist(), [0.02, 0.0])
+        self.assertEqual(links.names, ("link 1", "link 2"))
         cases = body.solve_cases([[-6.0, -8.0], [-60.0, -80.0], [6.0, 8.0]])
         # 100 u + 100 (u - 0.02) = 10; 100 u + 6 = 100; the strut takes one half.
         np.testing.assert_allclose(cases.force, [[4.0, 0.0], [6.0, 0.0], [0.0, 5.0]], atol=1e-12)
@@ -100,6 +102,7 @@ class Structures(unittest.TestCase):
         self.assertRaises(fuge.InputError, links.add_gap, [0, 1], [1], [1.0])
         self.assertRaises(fuge.InputError, links.describe, [1.0, 1.0], [[0.0, 0.0]], [[5, -1]])
         self.assertEqual(links.count, 1)
+        self.assertEqual(links.names, ("cable",))
         self.assertRaises(fuge.InputError, body.solve_cases, [[1.0, 2.0, 3.0]])
         body = fuge.Body(np.eye(2))
         self.assertRaises(fuge.CallOrderError, body.set_links, fuge.Links())
