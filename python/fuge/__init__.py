@@ -36,6 +36,7 @@ Bodies of finite elements
 
     Body(stiffness).condense()              one body condensed to its contact points: Condensed
     Links                                   supports that lift off, gaps, cables and struts of a structure
+    remove_member                           a stiffness matrix without a member, whose place a link takes
     ElasticBodies().solve()                 several bodies in one call: BodiesContact; join gives JoinedBodies
     ContactPairs, Surface                   contact points of two surfaces whose meshes need not match
     Mesh, read_mesh, join_meshes            meshes, and their pictures for ParaView
@@ -140,7 +141,7 @@ from fuge.halfspace import (
     ring_displacement as ring_displacement,
     ring_matrix as ring_matrix,
 )
-from fuge.links import Links as Links
+from fuge.links import Links as Links, remove_member as remove_member
 from fuge.mesh import Mesh as Mesh, join_meshes as join_meshes, read_mesh as read_mesh
 from fuge.operators import (
     CallbackOperator as CallbackOperator,

@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import MESSAGE_LENGTH, Owner, end_call, new_handle
+from fuge._calls import MESSAGE_LENGTH, Owner, call, end_call, new_handle
 from fuge._library import function, struct
 from fuge._words import Words
+from fuge.columns import CompressedColumns, compressed, compressed_dense, is_sparse
+from fuge.errors import Status, error
 
 MemberKind = Literal["tension_only", "compression_only"]
 
@@ -32,17 +34,24 @@ class Links(Owner):
     >>> body.set_links(links)
     >>> body.condense()
     >>> cases = body.solve_cases(loads)
+    >>> forces = dict(zip(links.names, cases.force.T))
     """
 
     _message_function = "fuge_links_message"
 
     def __init__(self) -> None:
         self._handle = new_handle("links", "fuge_links_create", "fuge_links_free")
+        self._names: list[str] = []
 
     @property
     def count(self) -> int:
         """Number of links."""
         return self._counts("fuge_links_get_count")[0]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the links, in the order of the forces; 'link 1' and so on where none was given."""
+        return tuple(self._names)
 
     def add_support(
         self,
@@ -82,7 +91,7 @@ class Links(Owner):
         degrees, along = _axes("dof", dof), _components("direction", direction)
         _arrays.check_shape("direction", along.shape, degrees.shape)
         law = _law(gap, play, compliance, limit, limit_upper)
-        self._call("fuge_links_add_support", degrees.size, degrees, along, ctypes.byref(law), _bytes(name))
+        self._add("fuge_links_add_support", name, degrees.size, degrees, along, ctypes.byref(law))
 
     def add_gap(
         self,
@@ -105,7 +114,7 @@ class Links(Owner):
         _arrays.check_shape("dof_b", second.shape, first.shape)
         _arrays.check_shape("direction", along.shape, first.shape)
         law = _law(gap, play, compliance, limit, limit_upper)
-        self._call("fuge_links_add_gap", first.size, first, second, along, ctypes.byref(law), _bytes(name))
+        self._add("fuge_links_add_gap", name, first.size, first, second, along, ctypes.byref(law))
 
     def add_member(
         self,
@@ -123,8 +132,7 @@ class Links(Owner):
     ) -> None:
         """Add a straight member between two nodes, a cable or a strut; its force is positive where it carries.
 
-        The stiffness matrix must not have the member too; to take it out, with the direction h of the member at its
-        ends: ``stiffness[np.ix_(dof, dof)] -= area * modulus / length * np.outer(h, h)``.
+        The stiffness matrix must not have the member too; :func:`remove_member` takes it out.
 
         Parameters
         ----------
@@ -155,8 +163,8 @@ class Links(Owner):
         member.area, member.modulus = _arrays.number("area", area), _arrays.number("modulus", modulus)
         member.slack = _arrays.number("slack", slack)
         setattr(member, "yield", _arrays.number("yield_force", yield_force))
-        values = first.size, first, second, place_a, place_b, ctypes.byref(member), _bytes(name)
-        self._call("fuge_links_add_member", *values)
+        values = first.size, first, second, place_a, place_b, ctypes.byref(member)
+        self._add("fuge_links_add_member", name, *values)
 
     @property
     def gap(self) -> NDArray[np.float64]:
@@ -193,6 +201,69 @@ class Links(Owner):
             end_call(code, lambda: message.value.decode(errors="replace"))
         return message.value.decode(errors="replace")
 
+    def _add(self, add: str, name: str | None, *arguments: Any) -> None:
+        """Call a function that adds a link, and remember its name."""
+        self._call(add, *arguments, None if name is None else name.encode())
+        self._names.append(f"link {len(self._names) + 1}" if name is None else name)
+
+
+def remove_member(
+    stiffness: Any,
+    dof_a: ArrayLike,
+    dof_b: ArrayLike,
+    position_a: ArrayLike,
+    position_b: ArrayLike,
+    *,
+    area: float,
+    modulus: float,
+) -> Any:
+    """A stiffness matrix without a member that it has, so that :meth:`Links.add_member` can take its place.
+
+    Of several members at a node take out the softest first: rounding of a stiffer one hides what is left of it.
+
+    Parameters
+    ----------
+    stiffness : array_like of shape (degrees, degrees), scipy.sparse matrix or CompressedColumns
+        Both triangles or one; it is not changed.
+    dof_a, dof_b, position_a, position_b, area, modulus
+        As in :meth:`Links.add_member`. Only the stiffness along the member is taken out: it has to be a bar.
+
+    Returns
+    -------
+    ndarray, scipy.sparse.csc_matrix or CompressedColumns
+        The matrix without the member, of the kind of `stiffness`.
+
+    Raises
+    ------
+    MatrixError
+        The matrix does not have the member.
+    InputError
+        The member has no length, area or modulus, a degree of freedom is out of range, or the shape is not square.
+    """
+    sparse = is_sparse(stiffness)
+    matrix = compressed("stiffness", stiffness) if sparse else compressed_dense("stiffness", stiffness)
+    if matrix.shape[0] != matrix.shape[1]:
+        raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
+    first, second = _axes("dof_a", dof_a), _axes("dof_b", dof_b)
+    place_a, place_b = _components("position_a", position_a), _components("position_b", position_b)
+    for label, found in (("dof_b", second), ("position_a", place_a), ("position_b", place_b)):
+        _arrays.check_shape(label, found.shape, first.shape)
+    span = place_b - place_a
+    length = math.hypot(*span)
+    if length == 0.0:
+        raise error(Status.ERR_LAW, "the ends of the member are at the same place")
+    axial = _arrays.number("area", area) * _arrays.number("modulus", modulus) / length
+    dof, normal = np.r_[first, second], np.r_[-span, span] / length
+    value = matrix.value.copy()
+    arguments = matrix.shape[0], matrix.column, matrix.row, value, dof.size, dof, normal, axial
+    call("fuge_remove_member", *arguments)
+    if not sparse:
+        without = np.zeros(matrix.shape)
+        without[matrix.row, np.repeat(np.arange(matrix.shape[1]), np.diff(matrix.column))] = value
+        return without
+    changed = CompressedColumns(matrix.shape, matrix.column, matrix.row, value)
+    return changed if isinstance(stiffness, CompressedColumns) else changed.tocsc()
+
 
 def _axes(name: str, dof: ArrayLike) -> NDArray[np.intc]:
     return _arrays.integers(name, np.atleast_1d(_arrays.array(name, dof)), (None,))
@@ -208,7 +279,3 @@ def _law(gap: float, play: float, compliance: float, limit: float, limit_upper: 
     law.compliance = _arrays.number("compliance", compliance)
     law.limit, law.limit_upper = _arrays.number("limit", limit), _arrays.number("limit_upper", limit_upper)
     return law
-
-
-def _bytes(name: str | None) -> bytes | None:
-    return None if name is None else name.encode()

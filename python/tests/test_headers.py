@@ -21,7 +21,6 @@ NOT_CALLED = {
     "fuge_solve_dense": "fuge.solve does the same through a solver, whose report it returns",
     "fuge_get_derivative": "Solver.derivative calls fuge_get_derivatives, which is the same for any number of motions",
     "fuge_default_link_law": "the keywords of Links.add_support have its values as defaults",
-    "fuge_remove_member": "with numpy it is one line: stiffness[np.ix_(dof, dof)] -= k * np.outer(normal, normal)",
 }
 
 

@@ -35,6 +35,7 @@ class Structures(unittest.TestCase):
         body, links = cable()
         self.assertEqual(links.count, 1)
         self.assertEqual(links.gap.tolist(), [0.0])
+        self.assertEqual(links.names, ("cable",))
         cases = body.solve_cases([[-6.0, -8.0], [6.0, 8.0]])
         np.testing.assert_allclose(cases.force, [[5.0], [0.0]], atol=1e-13)
         np.testing.assert_allclose(cases.displacement, [[-0.03, -0.04], [0.06, 0.08]], atol=1e-14)
@@ -51,6 +52,7 @@ class Structures(unittest.TestCase):
         body.set_links(links)
         body.condense()
         self.assertEqual(links.gap.tolist(), [0.02, 0.0])
+        self.assertEqual(links.names, ("link 1", "link 2"))
         cases = body.solve_cases([[-6.0, -8.0], [-60.0, -80.0], [6.0, 8.0]])
         # 100 u + 100 (u - 0.02) = 10; 100 u + 6 = 100; the strut takes one half.
         np.testing.assert_allclose(cases.force, [[4.0, 0.0], [6.0, 0.0], [0.0, 5.0]], atol=1e-12)
@@ -90,6 +92,34 @@ class Structures(unittest.TestCase):
         words = links.describe(u, [[0.0, 0.0], [1.0, 0.0]], [[0, -1], [1, -1]])
         self.assertEqual(words, "stop opens; the structure moves along x")
 
+    def test_remove_member(self):
+        # E A/L = 100 along (3, 4), beside springs of 10 along each axis.
+        ends = [0, 1], [2, 3], [0.0, 0.0], [3.0, 4.0]
+        h = np.array([-0.6, -0.8, 0.6, 0.8])
+        springs = np.diag([10.0] * 4)
+        whole = springs + 100.0 * np.outer(h, h)
+        found = fuge.remove_member(whole, *ends, area=1.0, modulus=500.0)
+        np.testing.assert_allclose(found, springs, atol=1e-13)
+        np.testing.assert_array_equal(whole, springs + 100.0 * np.outer(h, h))
+        # In one triangle of a sparse matrix, whose arrays remain as they are.
+        columns, rows = np.triu_indices(4)  # of column j the rows from j on
+        count = np.arange(4, 0, -1)
+        first = np.r_[0, np.cumsum(count)]
+        lower = fuge.CompressedColumns((4, 4), first, rows, whole[rows, columns])
+        found = fuge.remove_member(lower, *ends, area=1.0, modulus=500.0)
+        np.testing.assert_allclose(found.value, springs[rows, columns], atol=1e-13)
+        np.testing.assert_array_equal(lower.value, whole[rows, columns])
+        # An end that does not move.
+        found = fuge.remove_member(whole[:2, :2], [0, 1], [-1, -1], *ends[2:], area=1.0, modulus=500.0)
+        np.testing.assert_allclose(found, springs[:2, :2], atol=1e-13)
+        with self.assertRaises(fuge.MatrixError):
+            fuge.remove_member(springs, *ends, area=1.0, modulus=500.0)
+        for wrong in ({"area": 0.0, "modulus": 500.0}, {"area": 1.0, "modulus": np.nan}):
+            self.assertRaises(fuge.InputError, fuge.remove_member, whole, *ends, **wrong)
+        same = [0, 1], [2, 3], [0.0, 0.0], [0.0, 0.0]
+        self.assertRaises(fuge.InputError, fuge.remove_member, whole, *same, area=1.0, modulus=500.0)
+        self.assertRaises(fuge.InputError, fuge.remove_member, whole[:3], *ends, area=1.0, modulus=500.0)
+
     def test_refusals(self):
         body, links = cable()
         with self.assertRaisesRegex(fuge.InputError, "link 2 is zero"):
@@ -100,6 +130,7 @@ class Structures(unittest.TestCase):
         self.assertRaises(fuge.InputError, links.add_gap, [0, 1], [1], [1.0])
         self.assertRaises(fuge.InputError, links.describe, [1.0, 1.0], [[0.0, 0.0]], [[5, -1]])
         self.assertEqual(links.count, 1)
+        self.assertEqual(links.names, ("cable",))
         self.assertRaises(fuge.InputError, body.solve_cases, [[1.0, 2.0, 3.0]])
         body = fuge.Body(np.eye(2))
         self.assertRaises(fuge.CallOrderError, body.set_links, fuge.Links())

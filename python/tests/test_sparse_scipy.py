@@ -39,6 +39,13 @@ class Sparse(unittest.TestCase):
         body.set_contact([0], [1.0])
         np.testing.assert_allclose(body.condense().influence, [[1.0]], rtol=1e-12)
 
+    def test_remove_member(self):
+        csc = self.stiffness.tocsc()
+        found = fuge.remove_member(self.stiffness.tocoo(), 4, 5, 0.0, 1.0, area=1.0, modulus=1.0)
+        self.assertTrue(scipy.sparse.issparse(found))
+        np.testing.assert_array_equal((csc - found)[4:6, 4:6].toarray(), [[1.0, -1.0], [-1.0, 1.0]])
+        self.assertEqual(abs(csc - found).sum(), 4.0)
+
     def test_errors(self):
         csc = self.stiffness.tocsc()
         self.assertRaises(fuge.InputError, fuge.Body, csc[:, :3])
