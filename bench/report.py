@@ -27,7 +27,8 @@ SMALLEST_LINE = 32
 BOUNDS = ("dense", "path", "fft", "surface", "condensation")
 # Other programs that write their tables themselves, by the name of their place in the manual.
 PROGRAMS = {"accuracy": "accuracy", "graded": "graded_cells", "costs": "costs", "products_of_scenes": "scenes",
-            "steps": "load_steps", "stresses": "stresses", "rough": "rough_grids", "one_way": "structures"}
+            "steps": "load_steps", "stresses": "stresses", "rough": "rough_grids", "one_way": "structures",
+            "load_cases": "load_cases"}
 # The rows of these that the manual has; all of the others.
 ROWS = {"graded": r"\| (?:contact|---|(?:cylinder|flat|lifted) \| (?:64|256) )"}
 # Words of the programs, and those of the manual; and columns that the manual does not have.

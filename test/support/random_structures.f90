@@ -7,7 +7,8 @@ module random_structures
   use general_reference, only: draw, infinity
   use one_way_structures, only: add_member, add_row, begin_rows, one_way_structure
   use random_draws, only: chance, decimal, one_of, seed_of, uniform
-  use structure_members, only: bar, bar_direction, frame_beam, grillage_beam, plate
+  use raft_plates, only: plate_stiffness
+  use structure_members, only: bar, bar_direction, frame_beam, grillage_beam
   implicit none
   private
 
@@ -547,7 +548,7 @@ contains
     structure%floats = .not. chance(seed, 0.2_dp)
     rigidity = decimal(seed, -2.0_dp, 1.0_dp)
     stiffness = decimal(seed, -1.0_dp, 1.0_dp)
-    element = plate(1.0_dp, varied(seed, even, 0.7_dp, 1.3_dp), rigidity, 0.2_dp)
+    element = plate_stiffness(1.0_dp, varied(seed, even, 0.7_dp, 1.3_dp), rigidity, 0.2_dp)
     do j = 1, ny
       do i = 1, nx
         k = i + (j - 1)*(nx + 1)

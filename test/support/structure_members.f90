@@ -1,11 +1,10 @@
-!> Stiffness matrices of members: bars, beams in a plane, beams of a grillage and a rectangular plate.
+!> Stiffness matrices of members: bars, beams in a plane and beams of a grillage.
 module structure_members
   use fuge, only: dp => fuge_dp
-  use general_reference, only: eliminate
   implicit none
   private
 
-  public :: bar, bar_direction, frame_beam, grillage_beam, plate
+  public :: bar, bar_direction, frame_beam, grillage_beam
 
 contains
 
@@ -69,75 +68,5 @@ contains
     member(BENT, BENT) = bending(length, bending_stiffness)
     member([3, 6], [3, 6]) = torsion/length*reshape([1.0_dp, -1.0_dp, -1.0_dp, 1.0_dp], [2, 2])
   end function grillage_beam
-
-  !> A rectangular thin plate of a by b with the cubic polynomials of Adini, Clough and Melosh: deflection and slopes
-  !> (w, dw/dx, dw/dy) of the corners (0, 0), (a, 0), (0, b), (a, b). `rigidity` is E t^3/(12 (1 - poisson^2)).
-  pure function plate(a, b, rigidity, poisson) result(member)
-    real(dp), intent(in) :: a, b, rigidity, poisson
-    real(dp) :: member(12, 12)
-    real(dp) :: corners(12, 12), curvature(3, 12), law(3, 3), inner(12, 12), shapes(12, 12), unit(12), x, y
-    real(dp), parameter :: PLACES(3) = [-sqrt(0.6_dp), 0.0_dp, sqrt(0.6_dp)]
-    real(dp), parameter :: WEIGHTS(3) = [5.0_dp, 8.0_dp, 5.0_dp]/18.0_dp
-    logical :: regular
-    integer :: j, k
-
-    ! Lengths in units of the sides, so that the polynomials are of one size.
-    do k = 1, 4
-      x = real(mod(k - 1, 2), dp)
-      y = real((k - 1)/2, dp)
-      corners(3*k - 2, :) = polynomials(x, y)
-      corners(3*k - 1, :) = along_x(x, y)/a
-      corners(3*k, :) = along_y(x, y)/b
-    end do
-    law = rigidity*reshape([1.0_dp, poisson, 0.0_dp, poisson, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, &
-                            0.5_dp*(1.0_dp - poisson)], [3, 3])
-    inner = 0.0_dp
-    do j = 1, 3
-      do k = 1, 3
-        x = 0.5_dp*(1.0_dp + PLACES(j))
-        y = 0.5_dp*(1.0_dp + PLACES(k))
-        curvature = curvatures(x, y, a, b)
-        inner = inner + WEIGHTS(j)*WEIGHTS(k)*a*b*matmul(transpose(curvature), matmul(law, curvature))
-      end do
-    end do
-    do k = 1, 12
-      unit = 0.0_dp
-      unit(k) = 1.0_dp
-      call eliminate(corners, unit, shapes(:, k), regular)
-    end do
-    member = matmul(transpose(shapes), matmul(inner, shapes))
-  end function plate
-
-  pure function polynomials(x, y) result(values)
-    real(dp), intent(in) :: x, y
-    real(dp) :: values(12)
-
-    values = [1.0_dp, x, y, x*x, x*y, y*y, x**3, x*x*y, x*y*y, y**3, x**3*y, x*y**3]
-  end function polynomials
-
-  pure function along_x(x, y) result(values)
-    real(dp), intent(in) :: x, y
-    real(dp) :: values(12)
-
-    values = [0.0_dp, 1.0_dp, 0.0_dp, 2*x, y, 0.0_dp, 3*x*x, 2*x*y, y*y, 0.0_dp, 3*x*x*y, y**3]
-  end function along_x
-
-  pure function along_y(x, y) result(values)
-    real(dp), intent(in) :: x, y
-    real(dp) :: values(12)
-
-    values = [0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, x, 2*y, 0.0_dp, x*x, 2*x*y, 3*y*y, x**3, 3*x*y*y]
-  end function along_y
-
-  !> w_xx, w_yy and 2 w_xy of the polynomials.
-  pure function curvatures(x, y, a, b) result(values)
-    real(dp), intent(in) :: x, y, a, b
-    real(dp) :: values(3, 12)
-
-    values(1, :) = [0.0_dp, 0.0_dp, 0.0_dp, 2.0_dp, 0.0_dp, 0.0_dp, 6*x, 2*y, 0.0_dp, 0.0_dp, 6*x*y, 0.0_dp]/a**2
-    values(2, :) = [0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 2.0_dp, 0.0_dp, 0.0_dp, 2*x, 6*y, 0.0_dp, 6*x*y]/b**2
-    values(3, :) = 2.0_dp*[0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 2*x, 2*y, 0.0_dp, 3*x*x, &
-                           3*y*y]/(a*b)
-  end function curvatures
 
 end module structure_members
