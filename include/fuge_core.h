@@ -207,7 +207,7 @@ int fuge_graded_cells(double left, double right, int left_end, int right_end, in
 
 /* ---- edges of contact --------------------------------------------------- */
 
-enum {                          /* kind of an edge; all but the first and the last are edges of cells, because */
+enum {                          /* kind of an edge; from 1 to 3 it is that of a cell, because */
   FUGE_EDGE_REFINED = 0,        /* extrapolated from the forces, more accurate than the grid */
   FUGE_EDGE_FEW_CELLS = 1,      /* fewer than five cells are in contact */
   FUGE_EDGE_SINGULAR = 2,       /* the pressure does not fall like a square root, as under a
@@ -426,7 +426,8 @@ int fuge_solve(fuge_solver *s);
  * hears of each case, once: its number from 1, its residual and its contacts.  Returns
  * FUGE_DONE if all cases are, FUGE_WARN_CASES with the message of the first other one if not.
  * Errors, nothing is written: FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY,
- * FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED where ranks share the points.  The results of fuge_solve are not available then. */
+ * FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED where ranks share the points.
+ * After this call the results of fuge_solve are not available. */
 int fuge_solve_cases(fuge_solver *s, int cases, const double *gap, const double *resultant,
                      double *force, double *gap_out, double *motion, int *status);
 

@@ -11,7 +11,7 @@ module fuge_cases_solution
   use fuge_options_type, only: fuge_options
   use fuge_point_space, only: point_space
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_solver_type, only: fuge_solver
+  use fuge_solver_type, only: fuge_solver, takes_products
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CANCELLED, FUGE_ERR_SIZE, &
     FUGE_ERR_UNSUPPORTED, FUGE_WARN_CASES
   implicit none
@@ -61,7 +61,7 @@ contains
     if (info%failed()) return
     call allocate_case_solutions(operator%points(), problem%mode_count(), cases%number(), &
                                  ieee_value(1.0_dp, ieee_quiet_nan), found, info)
-    if (.not. info%failed()) call directions%set(cases, problem, info)
+    if (.not. (info%failed() .or. takes_products(operator, chosen))) call directions%set(cases, problem, info)
     if (info%failed()) return
     present_problem = problem
     do k = 1, cases%number()
@@ -70,6 +70,7 @@ contains
         call take_case(cases, k, present_problem)
         call solve_case(solver, operator, present_problem, chosen, directions%most_like(k), k, found)
       end if
+      if (found%report(k)%failed()) call directions%leave_out(k)
       if (.not. present(monitor)) cycle
       call monitor%progress(k, found%report(k)%residual, found%report(k)%contacts, cancelled)
       if (.not. cancelled) cycle

@@ -27,9 +27,12 @@ module fuge_nearest_case
     !> Components of each direction, (components, cases), and their products with those of `first`, `first` + 1, ..,
     !> (cases, BLOCK).
     real(dp), allocatable :: component(:, :), product(:, :)
+    !> Cases that others are not to start from, (cases).
+    logical, allocatable :: left_out(:)
     integer :: first = 0
   contains
     procedure :: set
+    procedure :: leave_out
     procedure :: most_like
   end type case_directions
 
@@ -37,7 +40,7 @@ module fuge_nearest_case
   type :: case_scales
     real(dp) :: gap = 0.0_dp
     real(dp), allocatable :: load(:)
-    !> Length of the data of each case, (cases).
+    !> Length of the data of each case, (cases); 0 where they are not finite, too: the solve refuses them.
     real(dp), allocatable :: length(:)
   end type case_scales
 
@@ -53,14 +56,13 @@ contains
     integer :: number, stat
 
     number = cases%number()
-    allocate (self%component(MOST_VECTORS + 1, number), self%product(number, BLOCK), scales%length(number), &
-              scales%load(problem%mode_count()), stat=stat)
+    allocate (self%component(MOST_VECTORS + 1, number), self%product(number, BLOCK), self%left_out(number), &
+              scales%length(number), scales%load(problem%mode_count()), stat=stat)
     call require_memory(stat, 'the directions of', number, 'load cases', info)
     if (stat /= 0) return
     self%component = 0.0_dp
+    self%left_out = .false.
     self%first = 0
-    ! The solve refuses numbers that are none.
-    if (.not. are_finite(cases)) return
     call find_scales(cases, scales)
     if (.not. any(scales%length > 0.0_dp)) return
     call find_components(cases, scales, self%component(:MOST_VECTORS, :), info)
@@ -69,7 +71,16 @@ contains
       call add_size(scales%length, self%component)
   end subroutine set
 
-  !> The case before `k` that is most like it; 0 for the first case. Cases are asked for in turn.
+  !> No other case is to start from case `k`, which has no solution.
+  pure subroutine leave_out(self, k)
+    class(case_directions), intent(inout) :: self
+    integer, intent(in) :: k
+
+    if (allocated(self%left_out)) self%left_out(k) = .true.
+  end subroutine leave_out
+
+  !> The case before `k` that is most like it; 0 if there is none, or if the directions are not set. Cases are asked for
+  !> in turn.
   function most_like(self, k)
     class(case_directions), intent(inout) :: self
     integer, intent(in) :: k
@@ -77,7 +88,7 @@ contains
     integer :: columns, components
 
     most_like = 0
-    if (k < 2) return
+    if (k < 2 .or. .not. allocated(self%component)) return
     if (k < self%first .or. k >= self%first + BLOCK .or. self%first < 1) then
       self%first = k
       columns = min(BLOCK, size(self%component, 2) - k + 1)
@@ -86,18 +97,8 @@ contains
                  self%component(:, k:), components, 0.0_dp, self%product, size(self%product, 1))
     end if
     ! Of equal ones the last, whose factor is at hand.
-    most_like = maxloc(self%product(:k - 1, k - self%first + 1), dim=1, back=.true.)
+    most_like = maxloc(self%product(:k - 1, k - self%first + 1), dim=1, mask=.not. self%left_out(:k - 1), back=.true.)
   end function most_like
-
-  !> Are all data finite?
-  pure function are_finite(cases)
-    type(fuge_load_cases), intent(in) :: cases
-    logical :: are_finite
-
-    are_finite = .true.
-    if (allocated(cases%gap)) are_finite = all(ieee_is_finite(cases%gap))
-    if (allocated(cases%load)) are_finite = are_finite .and. all(ieee_is_finite(cases%load))
-  end function are_finite
 
   !> The largest gap, the largest load of each motion, and with these units the length of the data of each case.
   pure subroutine find_scales(cases, scales)
@@ -107,15 +108,30 @@ contains
 
     scales%load = 0.0_dp
     scales%length = 0.0_dp
-    if (allocated(cases%load)) scales%load = maxval(abs(cases%load), dim=2)
-    if (allocated(cases%gap)) scales%gap = maxval(abs(cases%gap))
     do k = 1, size(scales%length)
+      if (.not. is_finite(cases, k)) cycle
+      if (allocated(cases%load)) scales%load = max(scales%load, abs(cases%load(:, k)))
+      if (allocated(cases%gap)) scales%gap = max(scales%gap, maxval(abs(cases%gap(:, k))))
+    end do
+    do k = 1, size(scales%length)
+      if (.not. is_finite(cases, k)) cycle
       if (scales%gap > 0.0_dp) scales%length(k) = norm2(cases%gap(:, k)/scales%gap)
       do j = 1, size(scales%load)
         if (scales%load(j) > 0.0_dp) scales%length(k) = hypot(scales%length(k), cases%load(j, k)/scales%load(j))
       end do
     end do
   end subroutine find_scales
+
+  !> Are all data of case `k` finite?
+  pure function is_finite(cases, k)
+    type(fuge_load_cases), intent(in) :: cases
+    integer, intent(in) :: k
+    logical :: is_finite
+
+    is_finite = .true.
+    if (allocated(cases%gap)) is_finite = all(ieee_is_finite(cases%gap(:, k)))
+    if (allocated(cases%load)) is_finite = is_finite .and. all(ieee_is_finite(cases%load(:, k)))
+  end function is_finite
 
   !> Components of the directions, (vectors, cases). The next vector of the basis is the direction of which most is
   !> left. Error: FUGE_ERR_MEMORY.
@@ -178,7 +194,11 @@ contains
     do j = 1, m
       if (scales%load(j) > 0.0_dp) row = row + vector(j)*(cases%load(j, :)/scales%load(j))
     end do
-    where (scales%length > 0.0_dp) row = row/scales%length
+    where (scales%length > 0.0_dp)
+      row = row/scales%length
+    elsewhere
+      row = 0.0_dp
+    end where
   end subroutine project
 
   !> Let the size of the data count beside their direction: what does not grow with them becomes one component more.

@@ -22,7 +22,7 @@ module fuge_solver_type
   implicit none
   private
 
-  public :: fuge_solve_dense
+  public :: fuge_solve_dense, takes_products
 
   !> Solves contact problems one after the other, each from the contact set of the last one. One solver for each
   !> thread.

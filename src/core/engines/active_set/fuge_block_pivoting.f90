@@ -22,8 +22,8 @@ module fuge_block_pivoting
   public :: run_block_pivoting
 
   !> Block exchanges in a row with points that join, and without a new minimum of wrong points, before single exchanges
-  !> begin.
-  integer, parameter :: MAX_STALLS = 3
+  !> begin: an eighth of the number of points, within these bounds. The fewer points, the fewer single exchanges.
+  integer, parameter :: LEAST_STALLS = 3, MOST_STALLS = 10
   !> Points whose forces are rounding are left out at most this many times, because others may lose theirs.
   integer, parameter :: MOST_ATTEMPTS = 3
   !> Forces on a singular contact below this fraction of the largest one of the body are rounding.
@@ -44,7 +44,7 @@ module fuge_block_pivoting
     !> The set is a new one, not the last one again with refinement.
     logical :: is_new_set = .true.
     !> Of the block exchanges; once they have stalled, single exchanges go on to the end.
-    type(stall_counter) :: stalls = stall_counter(limit=MAX_STALLS, left=MAX_STALLS)
+    type(stall_counter) :: stalls
     !> The largest violation that the primal active-set method has left.
     real(dp) :: violation_left = huge(1.0_dp)
   end type pivoting_progress
@@ -85,6 +85,7 @@ contains
     type(pivoting_progress) :: progress
 
     iterations = 0
+    call progress%stalls%start(min(max(size(solution%state)/8, LEAST_STALLS), MOST_STALLS))
     call set%start(canonical, solution%state, status)
     if (status /= FUGE_DONE) return
     do
@@ -187,7 +188,7 @@ contains
 
     if (any(wrong .and. open)) call progress%stalls%spend()
     if (.not. progress%stalls%has_stalled()) call progress%stalls%renew_if_fewer(count(wrong))
-    progress%refine_now = progress%stalls%left < MAX_STALLS
+    progress%refine_now = progress%stalls%left < progress%stalls%limit
   end subroutine count_progress
 
   !> A point in contact with a tensile force opens; an open one beyond a stop joins it.

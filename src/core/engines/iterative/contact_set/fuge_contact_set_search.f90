@@ -185,7 +185,8 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
 
-    iterate%force = scene%limit
+    ! A point without a limit carries no more than the load, which is 1.
+    iterate%force = min(scene%limit, 1.0_dp)
     if (allocated(scene%excluded)) where (scene%excluded) iterate%force = 0.0_dp
     iterate%contact = .false.
     iterate%limited = merge(1, 0, iterate%force > 0.0_dp)
