@@ -72,14 +72,12 @@ contains
     type(arguments), intent(in) :: given
     type(fuge_deck), intent(in) :: deck
     type(fuge_info), intent(inout) :: info
-    integer :: begin, length
+    character(len=:), allocatable :: path
+    integer :: k
 
-    begin = 1
-    do while (begin <= len(deck%paths))
-      length = index(deck%paths(begin:), achar(0)) - 1
-      call check_input(given, deck%paths(begin:begin + length - 1), &
-                       'the same file as of --deck or of one that it includes', info)
-      begin = begin + length + 1
+    do k = 1, deck%file_count()
+      call deck%get_file(k, path)
+      call check_input(given, path, 'the same file as of --deck or of one that it includes', info)
     end do
     if (info%failed()) return
     if (deck%link_count() < 1) then

@@ -5,6 +5,7 @@ module fuge_deck_type
   use fuge_kinds, only: dp
   use fuge_mesh_type, only: move_text, NAME_LENGTH
   use fuge_number_text, only: text
+  use fuge_path_list, only: count_paths, get_path
   use fuge_text_reader, only: quoted_path
   implicit none
   private
@@ -70,6 +71,8 @@ module fuge_deck_type
   contains
     procedure :: link_count
     procedure :: case_count
+    procedure :: file_count
+    procedure :: get_file
   end type fuge_deck
 
 contains
@@ -92,6 +95,25 @@ contains
     if (allocated(self%cases)) n = size(self%cases)
   end function case_count
 
+  !> Number of files that have been read.
+  pure function file_count(self) result(n)
+    class(fuge_deck), intent(in) :: self
+    integer :: n
+
+    n = 0
+    if (allocated(self%paths)) n = count_paths(self%paths)
+  end function file_count
+
+  !> Path of file k, from 1 to file_count().
+  pure subroutine get_file(self, k, path)
+    class(fuge_deck), intent(in) :: self
+    integer, intent(in) :: k
+    character(len=:), allocatable, intent(out) :: path
+
+    path = ''
+    if (allocated(self%paths)) call get_path(self%paths, k, path)
+  end subroutine get_file
+
   !> A rigid link between two nodes, with neither a second stop nor a limit.
   pure function new_link(name, node_a, node_b, direction, gap) result(link)
     character(len=*), intent(in) :: name
@@ -113,15 +135,11 @@ contains
     character(len=*), intent(in) :: paths
     integer, intent(in) :: file, line
     character(len=:), allocatable, intent(out) :: place
-    integer :: begin, k
 
     place = ''
     if (line < 1) return
-    begin = 1
-    do k = 2, file
-      begin = begin + index(paths(begin:), achar(0))
-    end do
-    place = quoted_path(paths(begin:begin + index(paths(begin:), achar(0)) - 2))//', line '//text(line)
+    call get_path(paths, file, place)
+    place = quoted_path(place)//', line '//text(line)
   end subroutine place_text
 
   !> Move a deck; nothing is copied.
