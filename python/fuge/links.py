@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import MESSAGE_LENGTH, Owner, end_call, new_handle
+from fuge._calls import MESSAGE_LENGTH, Handle, Owner, end_call, new_handle
 from fuge._library import function, struct
 from fuge._words import Words
 
@@ -36,8 +36,10 @@ class Links(Owner):
 
     _message_function = "fuge_links_message"
 
-    def __init__(self) -> None:
-        self._handle = new_handle("links", "fuge_links_create", "fuge_links_free")
+    def __init__(self, handle: Handle | None = None) -> None:
+        if handle is None:
+            handle = new_handle("links", "fuge_links_create", "fuge_links_free")
+        self._handle = handle
 
     @property
     def count(self) -> int:

@@ -1,9 +1,9 @@
 !> What the decks of finite element programs say beside the stiffness matrix: one-way links between nodes, and load
 !> cases with their supports.
 module fuge_deck_type
-  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
+  use fuge_constants, only: NAME_LENGTH
   use fuge_kinds, only: dp
-  use fuge_mesh_type, only: move_text, NAME_LENGTH
+  use fuge_mesh_type, only: move_text
   use fuge_number_text, only: text
   use fuge_path_list, only: count_paths, get_path
   use fuge_text_reader, only: quoted_path
@@ -26,12 +26,12 @@ module fuge_deck_type
     real(dp) :: direction(3) = 0.0_dp
     !> Gap without load, length; negative: an interference.
     real(dp) :: gap = 0.0_dp
-    !> Distance of a second stop, length; infinity: none.
-    real(dp) :: play = 0.0_dp
+    !> Distance of a second stop, length; huge(1.0_dp) or infinity: none.
+    real(dp) :: play = huge(1.0_dp)
     !> Of the link itself, length per force; 0: rigid.
     real(dp) :: compliance = 0.0_dp
-    !> Limit of the force; infinity: none.
-    real(dp) :: limit = 0.0_dp
+    !> Limit of the force; huge(1.0_dp) or infinity: none.
+    real(dp) :: limit = huge(1.0_dp)
     !> Its line, and the number of its file among `paths` of the deck.
     integer :: line = 0, file = 0
   end type fuge_deck_link
@@ -126,8 +126,6 @@ contains
     link%node_b = node_b
     link%direction = direction
     link%gap = gap
-    link%play = ieee_value(1.0_dp, ieee_positive_inf)
-    link%limit = link%play
   end function new_link
 
   !> File and line for a message, "model.bdf", line 12; empty without a line.
