@@ -108,24 +108,33 @@ int fuge_body_recover(const fuge_body *body, const double *force, const double *
                       double *displacement);
 
 /* Load cases, loads (degrees x cases), column k is case k: what fuge_solve_cases takes.
+ *   supports      in   fixed x cases, displacements of the supports in each case, in the order of
+ *                      fuge_body_fix; length.  NULL: those of fuge_body_fix in all cases
  *   displacement  out  n x cases, of the contact points by load and supports; add the gaps; length
  *   resultant     out  m x cases, of the rigid modes, for fuge_solve_cases; may be NULL if m = 0
  *   status        out  cases: FUGE_DONE, or why a load cannot be applied, such as
  *                      FUGE_ERR_NO_EQUILIBRIUM for one that no contact can resist
- * Each of the three may be NULL.  The columns of a case that is refused are NaN, so that
+ * Each of the last three may be NULL.  The columns of a case that is refused are NaN, so that
  * fuge_solve_cases refuses it too, and the call gives FUGE_WARN_CASES with the message of the
- * first one.  The load of fuge_body_set_load does not count.  FUGE_ERR_SIZE, FUGE_ERR_MEMORY. */
-int fuge_body_get_cases(fuge_body *body, int cases, const double *loads, double *displacement,
-                        double *resultant, int *status);
+ * first one.  The load of fuge_body_set_load does not count.  FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE
+ * for supports, FUGE_ERR_MEMORY. */
+int fuge_body_get_cases(fuge_body *body, int cases, const double *loads, const double *supports,
+                        double *displacement, double *resultant, int *status);
 
 /* Displacements (degrees x cases) of all degrees of freedom for the solutions of load cases.
- *   loads   in  degrees x cases, as above
- *   force   in  n x cases, motion m x cases (NULL if m = 0), both of fuge_solve_cases
- *   status  in  cases, of fuge_solve_cases: columns of cases whose status is negative are left
- *               as they are.  NULL: all cases have a solution
- * FUGE_WARN_RESIDUAL as fuge_body_recover, for any case. */
-int fuge_body_recover_cases(fuge_body *body, int cases, const double *loads, const double *force,
-                            const double *motion, double *displacement, const int *status);
+ *   loads     in  degrees x cases, and supports, fixed x cases or NULL, as above
+ *   force     in  n x cases, motion m x cases (NULL if m = 0), both of fuge_solve_cases
+ *   status    in  cases, of fuge_solve_cases: columns of cases whose status is negative become
+ *                 NaN.  NULL: all cases have a solution
+ * FUGE_WARN_RESIDUAL as fuge_body_recover, for the worst case. */
+int fuge_body_recover_cases(fuge_body *body, int cases, const double *loads,
+                            const double *supports, const double *force, const double *motion,
+                            double *displacement, const int *status);
+
+/* Message of load case `which` of the last of these two calls: why its load is refused, or that
+ * its displacements are out of balance; else empty.  FUGE_ERR_CALL_ORDER before the first call,
+ * FUGE_ERR_SIZE if there is no such case. */
+int fuge_body_case_message(const fuge_body *body, int which, char *message, size_t len);
 
 /* Message of the last call on body; a getter that succeeds leaves that of the call before.
  * At most len bytes are written, always ended by NUL. */
@@ -378,7 +387,7 @@ int fuge_bodies_get_contact(const fuge_bodies *bodies, int *dof, double *normal,
  *     -> fuge_links_free
  *
  * Names of links are for messages; NULL stands for "link 1", "link 2" and so on, in the order in
- * which they are added.  Of longer names 40 bytes are kept. */
+ * which they are added.  Of longer names 80 bytes are kept. */
 
 typedef struct fuge_links fuge_links;
 
@@ -443,8 +452,9 @@ int fuge_links_get_count(const fuge_links *links, int *count);
 int fuge_links_get_gaps(const fuge_links *links, double *gap);
 
 /* The links become the contact points of the body, in place of those of fuge_body_set_contact;
- * their degrees of freedom are checked by fuge_body_condense.  Links that are added later do not
- * count.  FUGE_ERR_CALL_ORDER without links, FUGE_ERR_MEMORY. */
+ * their degrees of freedom are checked by fuge_body_condense.  Those that supports hold at both
+ * ends move with these alone.  Links that are added later do not count.  FUGE_ERR_CALL_ORDER
+ * without links, FUGE_ERR_MEMORY. */
 int fuge_body_set_links(fuge_body *body, const fuge_links *links);
 
 /* Pose the problem of the links of a condensed body: the solver, whose operator is the

@@ -5,7 +5,7 @@
 #define FUGE_FILES_H
 
 #include <stddef.h>
-#include "fuge_core.h"
+#include "fuge_fe.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -344,13 +344,14 @@ int fuge_deck_get_links(const fuge_deck *deck, int *node_a, int *node_b, double 
 int fuge_deck_get_link_name(const fuge_deck *deck, int k, char *name, size_t name_len);
 int fuge_deck_get_case_name(const fuge_deck *deck, int k, char *name, size_t name_len);
 
-/* Degrees of freedom and normals of the links (6 x links), -1 where the matrix has no row, for
- * fuge_body_set_contact: link k is contact point k.  node and direction name the `rows` rows of
- * the matrix, as fuge_read_stiffness gives them, here and below.  FUGE_ERR_SIZE without links;
- * FUGE_ERR_DOF for rows without names, a row named twice, a link that no row moves, or one at a
- * node that has no row although nothing holds it; FUGE_ERR_MEMORY. */
-int fuge_deck_get_contact(const fuge_deck *deck, int rows, const int *node, const int *direction,
-                          int *dof, double *normal, char *message, size_t len);
+/* The links for fuge_body_set_links, with names and laws; free them by fuge_links_free.  *links is
+ * set on success only.  node and direction name the `rows` rows of the matrix, as
+ * fuge_read_stiffness gives them, here and below.  A row that the matrix does not have must be
+ * held in every load case.  FUGE_ERR_SIZE without links; FUGE_ERR_DOF for rows without names, a
+ * row named twice, a link that no row moves, or one at a degree of freedom that has no row
+ * although it is not held; FUGE_ERR_MEMORY. */
+int fuge_deck_make_links(const fuge_deck *deck, int rows, const int *node, const int *direction,
+                         fuge_links **links, char *message, size_t len);
 
 /* External forces of all load cases (rows x cases).  FUGE_ERR_DOF also for a force without a row
  * where the case does not hold the node; FUGE_ERR_MEMORY. */

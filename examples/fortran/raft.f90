@@ -15,7 +15,7 @@ program raft
   use example_stiffness, only: bodies_stiffness
   use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_body, fuge_case_solutions, fuge_condense, fuge_condensed, fuge_dense_operator, &
-    fuge_envelope, fuge_find_envelope, fuge_hard_law, fuge_info, fuge_link_law, fuge_links, fuge_load_cases, &
+    fuge_envelope, fuge_find_envelope, fuge_info, fuge_link_law, fuge_links, fuge_load_cases, &
     fuge_problem, fuge_solve_cases, fuge_solver
   use raft_plates, only: node_number, raft_stiffness
   implicit none
@@ -144,7 +144,6 @@ contains
     type(fuge_info) :: info
     integer :: k
 
-    law = fuge_hard_law()
     do k = 1, size(model%area)
       law%compliance = 1.0_dp/(SOIL*model%area(k))
       call links%add_support([3*k - 2], [1.0_dp], info, law)

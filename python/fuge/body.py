@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import Owner, call, end_call, new_handle
+from fuge._calls import MESSAGE_LENGTH, Owner, call, end_call, new_handle
 from fuge._library import function
 from fuge._messages import in_python
 from fuge.cases import Cases
@@ -111,6 +112,7 @@ class Body(Owner):
     def _create(self, create: str, degrees: int, *arguments: Any) -> None:
         self.degrees = degrees
         self._n = 0
+        self._fixed = 0
         self._links: Links | None = None
         self._solver: Solver | None = None
         self._handle = new_handle("body", create, "fuge_body_free", degrees, *arguments)
@@ -126,6 +128,7 @@ class Body(Owner):
         fixed = _arrays.integers("dof", dof, (None,))
         given = None if displacement is None else _arrays.spread("displacement", displacement, fixed.size)
         self._call("fuge_body_fix", fixed.size, fixed, given)
+        self._fixed = fixed.size
 
     def set_load(self, load: ArrayLike) -> None:
         """Set the external load, one force for each degree of freedom. After :meth:`condense` it costs one solve."""
@@ -226,13 +229,16 @@ class Body(Owner):
         self._call("fuge_body_recover", forces, motions, displacement)
         return displacement
 
-    def solve_cases(self, loads: ArrayLike) -> Cases:
+    def solve_cases(self, loads: ArrayLike, *, supports: ArrayLike | None = None) -> Cases:
         """Forces of the links and displacements of the structure in load cases, after :meth:`condense`.
 
         Parameters
         ----------
         loads : array_like, shape (cases, degrees)
             External loads; the load of :meth:`set_load` does not count.
+        supports : array_like, shape (cases, fixed), optional
+            Displacements of the supports in each case, in the order of :meth:`fix`; length. By default those of
+            :meth:`fix` in all cases.
 
         Returns
         -------
@@ -244,7 +250,7 @@ class Body(Owner):
         CasesWarning
             Some cases failed or have a warning; see `status` and `message` of the result.
         ResidualWarning
-            Displacements are out of balance by more than 1e-10 of the forces.
+            Displacements are out of balance by more than 1e-10 of the forces; `message` tells in which cases.
 
         Raises
         ------
@@ -253,23 +259,38 @@ class Body(Owner):
         """
         forces = _arrays.doubles("loads", loads, (None, self.degrees))
         number = len(forces)
+        moved = None if supports is None else _arrays.doubles("supports", supports, (number, self._fixed))
         solver, links = self._pose()
         displacement, resultant = np.empty((number, self._n)), np.empty((number, self._mode_count()))
         refused = np.zeros(number, dtype=np.intc)
         with self._handle.use() as pointer:
-            code = function("fuge_body_get_cases")(pointer, number, forces, displacement, resultant, refused)
+            code = function("fuge_body_get_cases")(pointer, number, forces, moved, displacement, resultant, refused)
             message = in_python(self._read_message(pointer), self._shapes)
             if code < 0:
                 end_call(code, lambda: message)
+            reasons = {int(k): self._case_message(pointer, int(k)) for k in np.flatnonzero(refused < 0)}
         found, solved, remark = solver._solve_cases(displacement + links.gap, resultant if resultant.size else None)
         if code == 0:
             code, message = solved, remark
-        for k in np.flatnonzero(refused < 0):
-            found = _refuse(found, int(k), Status(int(refused[k])))
-        moved = np.full(forces.shape, np.nan)
-        self._call("fuge_body_recover_cases", number, forces, found.force, found.motion, moved, found.status)
+        for k, reason in reasons.items():
+            found = _report(found, k, Status(int(refused[k])), reason)
+        recovered = np.empty(forces.shape)
+        arguments = number, forces, moved, found.force, found.motion, recovered, found.status
+        with self._handle.use() as pointer:
+            balance = function("fuge_body_recover_cases")(pointer, *arguments)
+            imbalance = in_python(self._read_message(pointer), self._shapes)
+            remarks = [self._case_message(pointer, k) for k in range(number if balance > 0 else 0)]
+        end_call(balance, lambda: imbalance)
+        for k, remark in enumerate(remarks):
+            if remark and found.status[k] == Status.DONE:
+                found = _report(found, k, Status(balance), remark)
         end_call(code, lambda: message)
-        return replace(found, displacement=moved)
+        return replace(found, displacement=recovered)
+
+    def _case_message(self, pointer: ctypes.c_void_p, k: int) -> str:
+        text = ctypes.create_string_buffer(MESSAGE_LENGTH + 1)
+        function("fuge_body_case_message")(pointer, k, text, MESSAGE_LENGTH + 1)
+        return in_python(text.value.decode(errors="replace"), self._shapes)
 
     def mechanism(self) -> NDArray[np.float64]:
         """How the structure moves where no forces of its links balance the load of :meth:`set_load`.
@@ -310,11 +331,11 @@ class Body(Owner):
         return self._counts("fuge_body_get_mode_count")[0]
 
 
-def _refuse(cases: Cases, k: int, status: Status) -> Cases:
-    """The cases with the status with which the body has refused load k."""
+def _report(cases: Cases, k: int, status: Status, message: str) -> Cases:
+    """The cases with what the body has reported of case k."""
     cases.status[k] = status
     infos, messages = list(cases.info), list(cases.message)
-    infos[k], messages[k] = replace(infos[k], status=status), status.text
+    infos[k], messages[k] = replace(infos[k], status=status), message
     return replace(cases, info=tuple(infos), message=tuple(messages))
 
 

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 from fuge import _arrays
 from fuge._calls import Handle, Owner, call, new_handle
 from fuge.files import PathLike, StiffnessFile, encoded
+from fuge.links import Links
 
 # The longest name of a link or a load case.
 _NAME_LENGTH = 80
-# Degrees of freedom of a link: those of node b, then those of node a, along x, y, z.
-_WIDTH = 6
 
 
 class Deck(Owner):
@@ -67,23 +66,24 @@ class Deck(Owner):
         call("fuge_deck_read_cases", self._handle.pointer, encoded(path))
         self._take()
 
-    def contact(self, stiffness: StiffnessFile) -> tuple[NDArray[np.intc], NDArray[np.float64]]:
-        """Degrees of freedom and normals of the links, (links, 6) each, for :meth:`Body.set_contact`.
+    def links(self, stiffness: StiffnessFile) -> Links:
+        """The links with their laws and names, for :meth:`Body.set_links`; link k is ``link_names[k]``.
 
         Parameters
         ----------
         stiffness : StiffnessFile
-            The matrix of the structure without the links, whose rows have names.
+            The matrix of the structure without the links, whose rows have names. A row that it does not have must be
+            held in every load case.
 
         Raises
         ------
         InputError
-            There is no link, rows have no names or the same name, or no row moves a link.
+            There is no link, rows have no names or the same name, no row moves a link, or a row is missing at a
+            degree of freedom that is not held.
         """
-        dof = np.empty((self.gap.size, _WIDTH), dtype=np.intc)
-        normal = np.empty((self.gap.size, _WIDTH))
-        call("fuge_deck_get_contact", self._handle.pointer, *_rows(stiffness), dof, normal)
-        return dof, normal
+        rows = _rows(stiffness)
+        handle = new_handle("links", "fuge_deck_make_links", "fuge_links_free", self._handle.pointer, *rows)
+        return Links(handle, self.link_names)
 
     def loads(self, stiffness: StiffnessFile) -> NDArray[np.float64]:
         """External forces of the load cases, (cases, rows)."""
@@ -92,7 +92,10 @@ class Deck(Owner):
         return loads
 
     def supports(self, case: int, stiffness: StiffnessFile) -> tuple[NDArray[np.intc], NDArray[np.float64]]:
-        """Degrees of freedom that a load case holds, and their displacements, for :meth:`Body.fix`."""
+        """Degrees of freedom that a load case holds, and their displacements, for :meth:`Body.fix`.
+
+        Cases that hold the same ones need one :meth:`Body.condense`, and `supports` of :meth:`Body.solve_cases`.
+        """
         count = np.empty(1, dtype=np.intc)
         arguments = [self._handle.pointer, _arrays.integer("case", case), *_rows(stiffness)]
         call("fuge_deck_get_supports", *arguments, 0, None, None, count)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import ctypes
 import math
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import MESSAGE_LENGTH, Owner, call, end_call, new_handle
+from fuge._calls import MESSAGE_LENGTH, Handle, Owner, call, end_call, new_handle
 from fuge._library import function, struct
 from fuge._words import Words
 from fuge.columns import CompressedColumns, compressed, compressed_dense, is_sparse
@@ -39,9 +40,11 @@ class Links(Owner):
 
     _message_function = "fuge_links_message"
 
-    def __init__(self) -> None:
-        self._handle = new_handle("links", "fuge_links_create", "fuge_links_free")
-        self._names: list[str] = []
+    def __init__(self, handle: Handle | None = None, names: Sequence[str] = ()) -> None:
+        if handle is None:
+            handle = new_handle("links", "fuge_links_create", "fuge_links_free")
+        self._handle = handle
+        self._names = list(names)
 
     @property
     def count(self) -> int:

@@ -139,14 +139,22 @@ class Decks(InFolder):
         names = self.file("k.dof", "1.1\n1.3\n2.1\n2.3\n")
         market = f"%%MatrixMarket matrix coordinate real symmetric\n4 4 4\n{entries}\n"
         stiffness = fuge.read_stiffness(self.file("k.mtx", market), names_path=names)
-        dof, normal = deck.contact(stiffness)
-        np.testing.assert_array_equal(dof, [[-1, -1, 3, -1, -1, 1]])
-        np.testing.assert_array_equal(normal, [[0, 0, 1, 0, 0, -1]])
+        links = deck.links(stiffness)
+        self.assertEqual(links.names, ("CGAP 12",))
+        self.assertEqual((links.count, links.gap.tolist()), (1, [0.5]))
         np.testing.assert_array_equal(deck.loads(stiffness), [[0, 0, 0, -2]])
         held, displacement = deck.supports(0, stiffness)
         np.testing.assert_array_equal(np.sort(held), [0, 1])
         np.testing.assert_array_equal(displacement, [0.25, 0.25])
         self.assertRaises(fuge.InputError, deck.supports, 1, stiffness)
+        # The force 2 minus that of the spring closes the gap, and more, by the displacement 0.25 of node 1.
+        body = fuge.Body(np.eye(4))
+        body.fix(held)
+        body.set_links(links)
+        body.condense()
+        cases = body.solve_cases(deck.loads(stiffness), supports=[displacement])
+        np.testing.assert_allclose(cases.force, [[1.4]], rtol=1e-14)
+        np.testing.assert_allclose(cases.displacement, [[0.25, 0.25, 0.0, -0.6]], rtol=1e-14)
 
     def test_tables(self):
         deck = fuge.Deck()

@@ -80,7 +80,20 @@ class Structures(unittest.TestCase):
             cases = body.solve_cases([[np.nan, 0.0], [-6.0, -8.0]])
         self.assertEqual(cases.status.tolist(), [fuge.Status.ERR_NOT_FINITE, 0])
         self.assertEqual(cases.info[0].status, fuge.Status.ERR_NOT_FINITE)
+        self.assertIn("nan", cases.message[0].lower())
         np.testing.assert_allclose(cases.force[1], [5.0], atol=1e-13)
+
+    def test_displaced_supports(self):
+        links = fuge.Links()
+        links.add_gap([1], [0], [1.0])
+        body = fuge.Body(np.diag([100.0, 1.0]))
+        body.fix([1])
+        body.set_links(links)
+        body.condense()
+        cases = body.solve_cases(np.zeros((2, 2)), supports=[[0.25], [-0.5]])
+        np.testing.assert_allclose(cases.force, [[25.0], [0.0]], rtol=1e-13)
+        np.testing.assert_allclose(cases.displacement, [[0.25, 0.25], [0.0, -0.5]], rtol=1e-13)
+        self.assertRaises(fuge.InputError, body.solve_cases, np.zeros((2, 2)), supports=[[0.25]])
 
     def test_mechanism(self):
         body, links = floating()

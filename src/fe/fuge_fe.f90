@@ -8,8 +8,7 @@ module fuge_fe
   use fuge_contact_pairs_type, only: fuge_contact_pairs, fuge_pair_options, FUGE_MORTAR, FUGE_NODE_TO_FACE, &
     FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
   use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair
-  use fuge_links_type, only: fuge_hard_law, fuge_link_law, fuge_links, fuge_member, FUGE_COMPRESSION_ONLY, &
-    FUGE_TENSION_ONLY
+  use fuge_links_type, only: fuge_link_law, fuge_links, fuge_member, FUGE_COMPRESSION_ONLY, FUGE_TENSION_ONLY
   use fuge_mechanism_words, only: fuge_describe_mechanism
   use fuge_member_stiffness, only: fuge_remove_member
   use fuge_nodal_modes, only: fuge_rigid_modes

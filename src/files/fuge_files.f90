@@ -2,7 +2,7 @@
 !> and results.
 module fuge_files
   use fuge_deck_files, only: fuge_read_deck
-  use fuge_deck_rows, only: fuge_deck_contact, fuge_deck_links, fuge_deck_loads, fuge_deck_supports
+  use fuge_deck_rows, only: fuge_deck_links, fuge_deck_loads, fuge_deck_supports
   use fuge_deck_tables, only: fuge_read_cases, fuge_read_links, fuge_read_supports
   use fuge_deck_type, only: fuge_deck, fuge_deck_case, fuge_deck_link, fuge_deck_value
   use fuge_result_files, only: fuge_write_results, fuge_write_volume

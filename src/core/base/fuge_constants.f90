@@ -13,4 +13,7 @@ module fuge_constants
   !> The product of four such numbers stays in range.
   integer, parameter, public :: LARGEST_EXPONENT_OF_4 = maxexponent(1.0_dp)/4
 
+  !> Longest name of a set of nodes or elements, of a link, and of a load case.
+  integer, parameter, public :: NAME_LENGTH = 80
+
 end module fuge_constants

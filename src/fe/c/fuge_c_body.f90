@@ -57,6 +57,8 @@ module fuge_c_body
     type(fuge_condensed) :: condensed
     !> `condensed` belongs to the present data.
     logical :: done = .false.
+    !> Of the load cases of the last call.
+    type(fuge_info), allocatable :: case_reports(:)
   end type body_handle
 
 contains
@@ -335,6 +337,7 @@ contains
     copy_of_normal = directions
     call move_alloc(copy_of_dof, body%dof)
     call move_alloc(copy_of_normal, body%normal)
+    body%held_points = .false.
   end subroutine set_points
 
   function c_body_condense(body) bind(c, name='fuge_body_condense') result(status)

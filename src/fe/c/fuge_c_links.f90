@@ -6,7 +6,8 @@ module fuge_c_links
   use fuge_c_solver, only: find_solver, require_problem, solver_handle
   use fuge_c_types, only: from_c_string, from_zero, give_message, report_failure, report_to_c, &
     report_to_handle, reporting_handle, require_columns, require_count, require_pointer, set_handle, take_handle
-  use fuge_links_type, only: fuge_hard_law, fuge_link_law, fuge_links, fuge_member, LINK_NAME_LENGTH
+  use fuge_constants, only: NAME_LENGTH
+  use fuge_links_type, only: fuge_link_law, fuge_links, fuge_member, infinite_if_none
   use fuge_mechanism_words, only: fuge_describe_mechanism
   use fuge_member_stiffness, only: fuge_remove_member
   use fuge_number_text, only: index_text, text
@@ -15,6 +16,8 @@ module fuge_c_links
   use fuge_structure_mechanism, only: fuge_find_mechanism
   implicit none
   private
+
+  public :: give_links
 
   !> struct fuge_link_law.
   type, bind(c) :: c_link_law
@@ -41,26 +44,37 @@ contains
 
     if (.not. c_associated(destination)) return
     call c_f_pointer(destination, law)
-    hard = fuge_hard_law()
-    law = c_link_law(hard%gap, hard%play, hard%compliance, hard%limit, hard%limit_upper)
+    law = c_link_law(hard%gap, infinite_if_none(hard%play), hard%compliance, infinite_if_none(hard%limit), &
+                     infinite_if_none(hard%limit_upper))
   end subroutine c_default_link_law
 
   function c_links_create(destination, message, length) bind(c, name='fuge_links_create') result(status)
     type(c_ptr), intent(in), value :: destination, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(links_handle), pointer :: handle
+    type(fuge_links) :: none
     type(fuge_info) :: info
+
+    call give_links(none, destination, info)
+    status = report_to_c(info, message, length)
+  end function c_links_create
+
+  !> Give links to the caller as a handle, unless an error is known already; FUGE_ERR_POINTER, FUGE_ERR_MEMORY.
+  subroutine give_links(links, destination, info)
+    type(fuge_links), intent(in) :: links
+    type(c_ptr), intent(in) :: destination
+    type(fuge_info), intent(inout) :: info
+    type(links_handle), pointer :: handle
     integer :: stat
 
     call require_pointer(destination, 'links', info)
-    if (.not. info%failed()) then
-      allocate (handle, stat=stat)
-      call require_memory(stat, 'the links', info)
-      if (stat == 0) call set_handle(c_loc(handle), destination)
-    end if
-    status = report_to_c(info, message, length)
-  end function c_links_create
+    if (info%failed()) return
+    allocate (handle, stat=stat)
+    call require_memory(stat, 'the links', info)
+    if (stat /= 0) return
+    handle%links = links
+    call set_handle(c_loc(handle), destination)
+  end subroutine give_links
 
   subroutine c_links_free(source) bind(c, name='fuge_links_free')
     type(c_ptr), intent(in), value :: source
@@ -144,7 +158,6 @@ contains
     type(fuge_link_law) :: law
     type(c_link_law), pointer :: source
 
-    law = fuge_hard_law()
     if (.not. c_associated(address)) return
     call c_f_pointer(address, source)
     law = fuge_link_law(source%gap, source%play, source%compliance, source%limit, source%limit_upper)
@@ -153,7 +166,7 @@ contains
   !> The name of a link, as much of it as is kept; blank for NULL.
   function name_at(address) result(name)
     type(c_ptr), intent(in) :: address
-    character(len=LINK_NAME_LENGTH) :: name
+    character(len=NAME_LENGTH) :: name
 
     name = ''
     if (c_associated(address)) name = from_c_string(address)

@@ -35,6 +35,9 @@ module fuge_body_type
     integer, allocatable :: dof(:, :)
     !> Normals: directions of the contact forces on the body, (width, n).
     real(dp), allocatable :: normal(:, :)
+    !> Contact points that supports hold entirely are allowed, and move with the supports alone; otherwise they are
+    !> refused.
+    logical :: held_points = .false.
   end type fuge_body
 
 contains

@@ -196,7 +196,7 @@ contains
     if (stat == 0) call set_loads(self, block(:, 1), stat)
     if (stat == 0) call self%factor%solve(block, stat)
     if (stat == 0) then
-      call add_supports(self, block(:, 1))
+      call add_supports(self, block(:, 1), self%body%displacement)
       self%load_displacement = block(:, 1)
       call apply_load(self, info)
     else
@@ -236,21 +236,24 @@ contains
   !> Pose the contact problem of many load cases: `cases` gets the gaps, `gap` + b, and the resultants w of each, and
   !> `problem` what `pose` sets, with the first load case.
   !>
-  !> `gap` (n), initial gaps, length; `loads` (degrees, cases), force: external loads, in place of that of the body,
-  !> whose supports stay displaced as they are. One solve for each case, in blocks. A case that drives a rigid mode
-  !> which no contact resists is marked as refused (FUGE_ERR_NO_EQUILIBRIUM), as is one that is not finite or out of
-  !> range. Errors, `problem` and `cases` unchanged: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
-  subroutine pose_cases(self, gap, loads, problem, cases, info)
+  !> `gap` (n), initial gaps, length; `loads` (degrees, cases), force: external loads, in place of that of the body;
+  !> `displacement` (fixed, cases), length: displacements of the supports in each case, in the order of `fixed` of the
+  !> body, by default those of the body in all cases. One solve for each case, in blocks. A case that drives a rigid
+  !> mode which no contact resists is marked as refused (FUGE_ERR_NO_EQUILIBRIUM), as is one whose loads are not finite
+  !> or out of range. Errors, `problem` and `cases` unchanged: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE
+  !> for displacements, FUGE_ERR_MEMORY.
+  subroutine pose_cases(self, gap, loads, problem, cases, info, displacement)
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(in) :: gap(:), loads(:, :)
     type(fuge_problem), intent(inout) :: problem
     type(fuge_load_cases), intent(inout) :: cases
     type(fuge_info), intent(out) :: info
+    real(dp), intent(in), optional :: displacement(:, :)
     type(fuge_load_cases) :: found
     type(fuge_problem) :: posed
     integer :: k, stat
 
-    call check_loads(self, loads, info)
+    call check_loads(self, loads, info, displacement)
     if (.not. info%failed()) then
       posed = problem
       call self%pose(gap, posed, info)
@@ -259,7 +262,7 @@ contains
     allocate (found%gap(size(gap), size(loads, 2)), found%load(posed%mode_count(), size(loads, 2)), &
               found%refused(size(loads, 2)), stat=stat)
     call require_memory(stat, 'the gaps of', size(loads, 2), 'load cases', info)
-    if (.not. info%failed()) call condense_loads(self, loads, found, info)
+    if (.not. info%failed()) call condense_loads(self, loads, found, info, displacement)
     if (info%failed()) return
     do k = 1, size(loads, 2)
       found%gap(:, k) = gap + found%gap(:, k)
@@ -275,11 +278,12 @@ contains
   end subroutine pose_cases
 
   !> Displacements b of the contact points and resultants w of all load cases, as cases%gap and cases%load.
-  subroutine condense_loads(self, loads, cases, info)
+  subroutine condense_loads(self, loads, cases, info, displacement)
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(in) :: loads(:, :)
     type(fuge_load_cases), intent(inout) :: cases
     type(fuge_info), intent(inout) :: info
+    real(dp), intent(in), optional :: displacement(:, :)
     real(dp), allocatable :: block(:, :)
     integer :: first, i, k, stat
 
@@ -295,7 +299,7 @@ contains
           block(:, k - first + 1) = 0.0_dp
           if (.not. cases%refused(k)%failed()) block(:, k - first + 1) = loads(:, k)
         end do
-        call solve_loads(self, block(:, :last - first + 1), stat)
+        call solve_loads(self, first, block(:, :last - first + 1), stat, displacement)
         call require_memory(stat, 'the displacements due to the loads', info)
         if (stat /= 0) return
         do k = first, last
@@ -321,73 +325,118 @@ contains
     call check_unresisted(self%unresisted_modes, load, self%scale, self%mode_error, info)
   end subroutine check_case
 
-  !> Replace external loads (degrees, columns) by their displacements, those of the supports included.
-  subroutine solve_loads(self, block, stat)
+  !> Replace the external loads of the cases from number `first` on, (degrees, columns), by their displacements, those
+  !> of the supports included.
+  subroutine solve_loads(self, first, block, stat, displacement)
     class(fuge_condensed), intent(in) :: self
+    integer, intent(in) :: first
     real(dp), intent(inout), contiguous :: block(:, :)
     integer, intent(out) :: stat
+    real(dp), intent(in), optional :: displacement(:, :)
     real(dp), allocatable :: support_forces(:)
     integer :: k
 
     allocate (support_forces(size(block, 1)), stat=stat)
-    if (stat /= 0) return
-    call find_support_forces(self, support_forces, stat)
-    if (stat /= 0) return
+    if (stat == 0 .and. .not. present(displacement)) &
+      call find_support_forces(self, support_forces, stat, self%body%displacement)
     do k = 1, size(block, 2)
+      if (stat == 0 .and. present(displacement)) &
+        call find_support_forces(self, support_forces, stat, displacement(:, first + k - 1))
+      if (stat /= 0) return
       block(:, k) = merge(0.0_dp, block(:, k) - support_forces, self%constrained)
     end do
     call self%factor%solve(block, stat)
     do k = 1, size(block, 2)
-      call add_supports(self, block(:, k))
+      if (present(displacement)) then
+        call add_supports(self, block(:, k), displacement(:, first + k - 1))
+      else
+        call add_supports(self, block(:, k), self%body%displacement)
+      end if
     end do
   end subroutine solve_loads
 
   !> Displacements of all degrees of freedom for the solutions of all load cases, as `recover` for each.
   !>
-  !> `loads` (degrees, cases) as for `pose_cases`, `u` (degrees, cases), length: NaN in the columns of cases without a
-  !> solution. info%residual is the largest of any case; FUGE_WARN_RESIDUAL if it exceeds 1e-10. Errors, `u` unchanged:
-  !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
-  subroutine recover_cases(self, loads, solutions, u, info)
+  !> `loads` (degrees, cases) and `displacement` as for `pose_cases`; `u` (degrees, cases), length: NaN in the columns of
+  !> cases without a solution. info%residual is the largest of any case, FUGE_WARN_RESIDUAL if it exceeds 1e-10; the
+  !> report of such a case, if it had no warning, has this one. Errors, `u` unchanged but for FUGE_ERR_MEMORY:
+  !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW.
+  subroutine recover_cases(self, loads, solutions, u, info, displacement)
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(in) :: loads(:, :)
-    type(fuge_case_solutions), intent(in) :: solutions
+    type(fuge_case_solutions), intent(inout) :: solutions
     real(dp), intent(inout) :: u(:, :)
     type(fuge_info), intent(out) :: info
+    real(dp), intent(in), optional :: displacement(:, :)
     real(dp), allocatable :: block(:, :)
     integer :: first, k, stat
 
-    call check_loads(self, loads, info)
+    call check_loads(self, loads, info, displacement)
     if (.not. info%failed()) call check_case_solutions(self, solutions, shape(loads), shape(u), info)
+    do k = 1, size(loads, 2)
+      if (info%failed()) return
+      if (.not. solutions%report(k)%failed()) call check_recovered_case(self, loads(:, k), solutions, k, info)
+    end do
     if (info%failed()) return
-    allocate (block(size(loads, 1), size(loads, 2)), stat=stat)
-    call require_memory(stat, 'the displacements of', size(loads, 2), 'load cases', info)
-    if (stat /= 0) return
-    do k = 1, size(loads, 2)
-      block(:, k) = 0.0_dp
-      if (solutions%report(k)%failed()) cycle
-      call check_load_field(loads(:, k), size(loads, 1), info)
-      if (.not. info%failed()) call check_finite(solutions%force(:, k), 'force', info)
-      if (.not. info%failed()) call check_finite(solutions%motion(:size(self%resultant), k), 'motion', info)
-      if (info%failed()) return
-      block(:, k) = loads(:, k)
-      call add_contact_forces(self%body, solutions%force(:, k), block(:, k))
-    end do
+    allocate (block(size(loads, 1), min(COLUMNS, size(loads, 2))), stat=stat)
+    call require_memory(stat, 'the displacements of load cases', info)
     do first = 1, size(loads, 2), COLUMNS
-      call solve_loads(self, block(:, first:min(first + COLUMNS - 1, size(loads, 2))), stat)
-      call require_memory(stat, 'the displacements of', size(loads, 2), 'load cases', info)
-      if (stat /= 0) return
-    end do
-    do k = 1, size(loads, 2)
-      if (solutions%report(k)%failed()) then
-        block(:, k) = ieee_value(1.0_dp, ieee_quiet_nan)
-      else
-        call add_motions(self, solutions%motion(:, k), block(:, k), info)
-        if (.not. info%failed()) call find_residual(self, loads(:, k), solutions%force(:, k), block(:, k), info)
-      end if
       if (info%failed()) return
+      associate (last => min(first + COLUMNS - 1, size(loads, 2)))
+        do k = first, last
+          block(:, k - first + 1) = 0.0_dp
+          if (solutions%report(k)%failed()) cycle
+          block(:, k - first + 1) = loads(:, k)
+          call add_contact_forces(self%body, solutions%force(:, k), block(:, k - first + 1))
+        end do
+        call solve_loads(self, first, block(:, :last - first + 1), stat, displacement)
+        call require_memory(stat, 'the displacements of load cases', info)
+        do k = first, last
+          if (info%failed()) return
+          u(:, k) = ieee_value(1.0_dp, ieee_quiet_nan)
+          if (solutions%report(k)%failed()) cycle
+          u(:, k) = block(:, k - first + 1)
+          call complete_case(self, loads(:, k), solutions, k, u(:, k), info)
+        end do
+      end associate
     end do
-    u = block
   end subroutine recover_cases
+
+  !> Refuse a load, forces or motions of case `k` that are not finite or out of range.
+  pure subroutine check_recovered_case(self, load, solutions, k, info)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(in) :: load(:)
+    type(fuge_case_solutions), intent(in) :: solutions
+    integer, intent(in) :: k
+    type(fuge_info), intent(inout) :: info
+
+    call check_load_field(load, size(load), info)
+    if (.not. info%failed()) call check_finite(solutions%force(:, k), 'force', info)
+    if (.not. info%failed()) call check_finite(solutions%motion(:size(self%resultant), k), 'motion', info)
+  end subroutine check_recovered_case
+
+  !> Add the motions of case `k` to its displacements `u` (degrees), and find its residual: `info` has the largest one of
+  !> all cases. Error: FUGE_ERR_MEMORY.
+  subroutine complete_case(self, load, solutions, k, u, info)
+    class(fuge_condensed), intent(in) :: self
+    real(dp), intent(in) :: load(:)
+    type(fuge_case_solutions), intent(inout) :: solutions
+    integer, intent(in) :: k
+    real(dp), intent(inout) :: u(:)
+    type(fuge_info), intent(inout) :: info
+    type(fuge_info) :: balance
+
+    call add_motions(self, solutions%motion(:, k), u, balance)
+    if (.not. balance%failed()) call find_residual(self, load, solutions%force(:, k), u, balance)
+    if (balance%failed()) info = balance
+    if (info%failed()) return
+    if (balance%status /= FUGE_DONE .and. solutions%report(k)%status == FUGE_DONE) &
+      call report(solutions%report(k), balance%status, composed_message(balance))
+    if (balance%residual <= info%residual) return
+    info%residual = balance%residual
+    if (balance%status /= FUGE_DONE) call report(info, balance%status, 'load case '//index_text(k)//': ' &
+                                                 //composed_message(balance))
+  end subroutine complete_case
 
   !> Refuse solutions, or displacements, that do not fit the loads and this body.
   pure subroutine check_case_solutions(self, solutions, loads, displacements, info)
@@ -411,11 +460,14 @@ contains
     end if
   end subroutine check_case_solutions
 
-  !> Refuse loads that do not fit this body (FUGE_ERR_SIZE), or before there is one (FUGE_ERR_CALL_ORDER).
-  pure subroutine check_loads(self, loads, info)
+  !> Refuse loads, or displacements of supports, that do not fit this body (FUGE_ERR_SIZE), or before there is one
+  !> (FUGE_ERR_CALL_ORDER), and displacements that are not finite (FUGE_ERR_NOT_FINITE).
+  pure subroutine check_loads(self, loads, info, displacement)
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(in) :: loads(:, :)
     type(fuge_info), intent(inout) :: info
+    real(dp), intent(in), optional :: displacement(:, :)
+    integer :: fixed, k
 
     if (.not. allocated(self%factor)) then
       call report(info, FUGE_ERR_CALL_ORDER, 'no body has been condensed: call fuge_condense first')
@@ -424,6 +476,16 @@ contains
                   //' columns: it needs a row for each of '//text(size(self%constrained))//' degrees of freedom and ' &
                   //'a column for each load case')
     end if
+    if (info%failed() .or. .not. present(displacement)) return
+    fixed = 0
+    if (allocated(self%body%fixed)) fixed = size(self%body%fixed)
+    if (any(shape(displacement) /= [fixed, size(loads, 2)])) &
+      call report(info, FUGE_ERR_SIZE, 'displacement has '//text(size(displacement, 1))//' rows and ' &
+                  //text(size(displacement, 2))//' columns: it needs a row for each of '//text(fixed) &
+                  //' fixed degrees of freedom and a column for each of '//text(size(loads, 2))//' load cases')
+    do k = 1, size(displacement, 2)
+      if (.not. info%failed()) call check_finite(displacement(:, k), 'displacement', info)
+    end do
   end subroutine check_loads
 
   !> Displacements of all degrees of freedom for a solution of the contact problem.
@@ -546,8 +608,7 @@ contains
     call require_memory(stat, 'the displacements', info)
   end subroutine add_motions
 
-  !> The residual of K u = forces, with K itself and not its factor, as info%residual if it is the largest so far; a
-  !> warning if it is large. `load` (degrees) external, `force` (n) of the contact.
+  !> The residual of K u = forces, with K itself and not its factor, as info%residual; a warning if it is large. `load` (degrees) external, `force` (n) of the contact.
   subroutine find_residual(self, load, force, u, info)
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(in) :: load(:), force(:), u(:)
@@ -566,7 +627,6 @@ contains
     call unscale(residual, self%scale)
     call unscale(magnitude, self%scale)
     if (.not. maxval(magnitude) > 0.0_dp) return
-    if (maxval(abs(residual))/maxval(magnitude) <= info%residual) return
     info%residual = maxval(abs(residual))/maxval(magnitude)
     if (info%residual > RESIDUAL_TOLERANCE) call report(info, FUGE_WARN_RESIDUAL, &
       'the displacements leave degree of freedom '//index_text(maxloc(abs(residual), 1))//' out of balance by ' &
@@ -587,7 +647,7 @@ contains
     self%constrained = .false.
     if (allocated(self%body%fixed)) self%constrained(self%body%fixed) = .true.
     call find_scale(self, all_scale, info)
-    if (.not. info%failed()) call check_free_points(self%body, self%constrained, info)
+    if (.not. (self%body%held_points .or. info%failed())) call check_free_points(self%body, self%constrained, info)
     if (.not. info%failed()) self%constrained(self%idle) = .true.
   end subroutine mark_supports
 
@@ -759,7 +819,7 @@ contains
     call find_smallest_eigenvalue(self%stiffness, self%factor, merge(0.0_dp, self%scale, self%constrained), loads, &
                                   quotient, weakest, status)
     if (status /= FUGE_DONE) return
-    call add_supports(self, loads(:, 1))
+    call add_supports(self, loads(:, 1), self%body%displacement)
     self%load_displacement = loads(:, 1)
     if (.not. self%body%floats) return
     self%rigid_modes = loads(:, 2:)
@@ -778,7 +838,7 @@ contains
 
     allocate (support_forces(size(load)), stat=status)
     if (status /= FUGE_DONE) return
-    call find_support_forces(self, support_forces, status)
+    call find_support_forces(self, support_forces, status, self%body%displacement)
     if (status /= FUGE_DONE) return
     load = 0.0_dp
     if (allocated(self%body%load)) load = self%body%load
@@ -786,29 +846,34 @@ contains
     where (self%constrained) load = 0.0_dp
   end subroutine set_loads
 
-  !> The forces that displace the supports alone, (degrees). `status` is not FUGE_DONE without memory.
-  subroutine find_support_forces(self, forces, status)
+  !> The forces (degrees) that displace the supports alone by `displacement` (fixed), by default not at all. `status` is
+  !> not FUGE_DONE without memory.
+  subroutine find_support_forces(self, forces, status, displacement)
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(out) :: forces(:)
     integer, intent(out) :: status
+    real(dp), intent(in), optional :: displacement(:)
     real(dp), allocatable :: prescribed(:), magnitude(:)
 
     status = FUGE_DONE
     forces = 0.0_dp
-    if (.not. allocated(self%body%displacement)) return
+    if (.not. present(displacement)) return
+    if (.not. any(abs(displacement) > 0.0_dp)) return
     allocate (prescribed(size(forces)), magnitude(size(forces)), stat=status)
     if (status /= FUGE_DONE) return
     prescribed = 0.0_dp
-    call add_supports(self, prescribed)
+    call add_supports(self, prescribed, displacement)
     call self%stiffness%multiply(prescribed, forces, magnitude)
   end subroutine find_support_forces
 
-  !> Add the displacements of the supports to `u` (degrees).
-  pure subroutine add_supports(self, u)
+  !> Add the displacements of the supports, if there are any, to `u` (degrees).
+  pure subroutine add_supports(self, u, displacement)
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(inout) :: u(:)
+    real(dp), intent(in), optional :: displacement(:)
 
-    if (allocated(self%body%displacement)) u(self%body%fixed) = u(self%body%fixed) + self%body%displacement
+    if (.not. present(displacement)) return
+    if (size(displacement) > 0) u(self%body%fixed) = u(self%body%fixed) + displacement
   end subroutine add_supports
 
   !> R = -H^T Z; keep the modes that the contact points resist.

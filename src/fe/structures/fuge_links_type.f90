@@ -7,7 +7,7 @@ module fuge_links_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_positive_inf, ieee_value
   use fuge_body_type, only: fuge_body
   use fuge_condensation, only: fuge_condensed
-  use fuge_constants, only: LARGEST_EXPONENT
+  use fuge_constants, only: LARGEST_EXPONENT, NAME_LENGTH
   use fuge_kinds, only: dp
   use fuge_load_cases_type, only: fuge_load_cases
   use fuge_number_text, only: index_text, text
@@ -17,30 +17,29 @@ module fuge_links_type
   implicit none
   private
 
-  public :: fuge_hard_law
+  public :: infinite_if_none
 
   !> Kind of a member: a cable.
   integer, parameter, public :: FUGE_TENSION_ONLY = 1
   !> Kind of a member: a strut.
   integer, parameter, public :: FUGE_COMPRESSION_ONLY = -1
 
-  !> Longest name of a link.
-  integer, parameter, public :: LINK_NAME_LENGTH = 40
   !> Degrees of freedom of a node that a direction may have, most.
   integer, parameter :: MOST_AXES = 6
 
-  !> The law of a link, as that of a contact point in `fuge_problem`. Take `fuge_hard_law()` and change what differs.
+  !> The law of a link, as that of a contact point in `fuge_problem`. As it is declared it is hard: no gap, no
+  !> compliance, no second stop, no limits.
   type, public :: fuge_link_law
     !> Gap without load, length; negative: an interference.
     real(dp) :: gap = 0.0_dp
-    !> Distance of a second stop from the first, length; infinity: none.
-    real(dp) :: play = 0.0_dp
+    !> Distance of a second stop from the first, length; huge(1.0_dp) or infinity: none.
+    real(dp) :: play = huge(1.0_dp)
     !> Compliance of the link, length per force; 0: rigid.
     real(dp) :: compliance = 0.0_dp
-    !> Limit of the force at the first stop; infinity: none.
-    real(dp) :: limit = 0.0_dp
-    !> Limit of the force at the second stop; infinity: none.
-    real(dp) :: limit_upper = 0.0_dp
+    !> Limit of the force at the first stop; huge(1.0_dp) or infinity: none.
+    real(dp) :: limit = huge(1.0_dp)
+    !> Limit of the force at the second stop; huge(1.0_dp) or infinity: none.
+    real(dp) :: limit_upper = huge(1.0_dp)
   end type fuge_link_law
 
   !> A straight member without bending, in tension or in compression only.
@@ -61,7 +60,7 @@ module fuge_links_type
     integer :: dof(2*MOST_AXES) = 0
     real(dp) :: normal(2*MOST_AXES) = 0.0_dp
     type(fuge_link_law) :: law = fuge_link_law()
-    character(len=LINK_NAME_LENGTH) :: name = ''
+    character(len=NAME_LENGTH) :: name = ''
   end type link_row
 
   !> Links in the order in which they were added: link k is contact point k.
@@ -85,14 +84,14 @@ module fuge_links_type
 
 contains
 
-  !> The law of a hard link: no gap, no compliance, no second stop, no limit.
-  pure function fuge_hard_law() result(law)
-    type(fuge_link_law) :: law
+  !> A play or a limit as `fuge_problem` takes it: infinity where there is none.
+  elemental function infinite_if_none(value) result(bound)
+    real(dp), intent(in) :: value
+    real(dp) :: bound
 
-    law%play = ieee_value(1.0_dp, ieee_positive_inf)
-    law%limit = law%play
-    law%limit_upper = law%play
-  end function fuge_hard_law
+    bound = value
+    if (value >= huge(1.0_dp)) bound = ieee_value(1.0_dp, ieee_positive_inf)
+  end function infinite_if_none
 
   !> Number of links.
   pure function link_count(self) result(n)
@@ -102,11 +101,11 @@ contains
     n = self%used
   end function link_count
 
-  !> Name of link k: that it was given, else 'link ' and its number.
+  !> Name of link k: the name given when it was added, else 'link ' and its number.
   pure function link_name(self, k) result(name)
     class(fuge_links), intent(in) :: self
     integer, intent(in) :: k
-    character(len=LINK_NAME_LENGTH) :: name
+    character(len=NAME_LENGTH) :: name
 
     name = self%rows(k)%name
     if (name == '') name = 'link '//text(k)
@@ -167,7 +166,6 @@ contains
 
     call check_member(self%used + 1, position_a, position_b, member, info, name)
     if (info%failed()) return
-    law = fuge_hard_law()
     law%gap = member%slack
     law%compliance = compliance_of(member, norm2(position_b - position_a))
     if (member%yield > 0.0_dp) law%limit = member%yield
@@ -180,8 +178,8 @@ contains
     if (.not. info%failed()) call add_row(self, row, info)
   end subroutine add_member
 
-  !> Make the links the contact points of `body`, before `fuge_condense`. Errors, `body` unchanged: FUGE_ERR_CALL_ORDER
-  !> without links, FUGE_ERR_MEMORY.
+  !> Make the links the contact points of `body`, before `fuge_condense`; those that its supports hold at both ends move
+  !> with these alone (`held_points`). Errors, `body` unchanged: FUGE_ERR_CALL_ORDER without links, FUGE_ERR_MEMORY.
   subroutine attach(self, body, info)
     class(fuge_links), intent(in) :: self
     type(fuge_body), intent(inout) :: body
@@ -211,6 +209,7 @@ contains
     end do
     call move_alloc(dof, body%dof)
     call move_alloc(normal, body%normal)
+    body%held_points = .true.
   end subroutine attach
 
   !> Pose the contact problem of the links of a condensed body: gaps, laws and the rigid modes that its supports leave;
@@ -222,23 +221,25 @@ contains
     type(fuge_info), intent(out) :: info
     type(fuge_problem) :: posed
 
-    call start_problem(self, posed)
-    call condensed%pose(gaps(self), posed, info)
+    call start_problem(self, posed, info)
+    if (.not. info%failed()) call condensed%pose(gaps(self), posed, info)
     if (.not. info%failed()) problem = posed
   end subroutine pose
 
-  !> As `pose`, of many load cases: external loads, (degrees, cases). Errors: those of `pose_cases` of fuge_condensed.
-  subroutine pose_cases(self, condensed, loads, problem, cases, info)
+  !> As `pose`, of many load cases: external `loads`, (degrees, cases), and perhaps displacements of the supports, (fixed,
+  !> cases). Errors: those of `pose_cases` of fuge_condensed.
+  subroutine pose_cases(self, condensed, loads, problem, cases, info, displacement)
     class(fuge_links), intent(in) :: self
     type(fuge_condensed), intent(in) :: condensed
     real(dp), intent(in) :: loads(:, :)
     type(fuge_problem), intent(inout) :: problem
     type(fuge_load_cases), intent(inout) :: cases
     type(fuge_info), intent(out) :: info
+    real(dp), intent(in), optional :: displacement(:, :)
     type(fuge_problem) :: posed
 
-    call start_problem(self, posed)
-    call condensed%pose_cases(gaps(self), loads, posed, cases, info)
+    call start_problem(self, posed, info)
+    if (.not. info%failed()) call condensed%pose_cases(gaps(self), loads, posed, cases, info, displacement)
     if (.not. info%failed()) problem = posed
   end subroutine pose_cases
 
@@ -277,17 +278,22 @@ contains
     gaps = self%rows(:self%used)%law%gap
   end function gaps
 
-  !> Laws of the points, and no motion: the ground stands still.
-  pure subroutine start_problem(self, problem)
+  !> Laws of the points, and no motion: the ground stands still. Error: FUGE_ERR_MEMORY.
+  pure subroutine start_problem(self, problem, info)
     type(fuge_links), intent(in) :: self
     type(fuge_problem), intent(out) :: problem
+    type(fuge_info), intent(out) :: info
+    integer :: stat
 
-    allocate (problem%modes(self%used, 0), problem%resultant(0))
+    allocate (problem%modes(self%used, 0), problem%resultant(0), stat=stat)
+    call require_memory(stat, 'the laws of the links', info)
+    if (stat /= 0) return
     associate (law => self%rows(:self%used)%law)
-      if (any(ieee_is_finite(law%play))) problem%gap_upper = law%play
+      if (any(law%play < huge(1.0_dp))) problem%gap_upper = infinite_if_none(law%play)
       if (any(law%compliance > 0.0_dp)) problem%compliance = law%compliance
-      if (any(ieee_is_finite(law%limit))) problem%limit = law%limit
-      if (any(ieee_is_finite(law%limit_upper) .and. ieee_is_finite(law%play))) problem%limit_upper = law%limit_upper
+      if (any(law%limit < huge(1.0_dp))) problem%limit = infinite_if_none(law%limit)
+      if (any(law%limit_upper < huge(1.0_dp) .and. law%play < huge(1.0_dp))) &
+        problem%limit_upper = infinite_if_none(law%limit_upper)
     end associate
   end subroutine start_problem
 
@@ -301,9 +307,8 @@ contains
     type(fuge_link_law), intent(in), optional :: law
     character(len=*), intent(in), optional :: name
     real(dp) :: unit(size(direction))
-    character(len=LINK_NAME_LENGTH) :: own
+    character(len=NAME_LENGTH) :: own
 
-    row%law = fuge_hard_law()
     if (present(law)) row%law = law
     if (present(name)) row%name = name
     own = called(k, row%name)
@@ -372,7 +377,7 @@ contains
     type(fuge_member), intent(in) :: member
     type(fuge_info), intent(out) :: info
     character(len=*), intent(in), optional :: name
-    character(len=LINK_NAME_LENGTH) :: own
+    character(len=NAME_LENGTH) :: own
 
     own = ''
     if (present(name)) own = name
@@ -414,7 +419,7 @@ contains
   pure function called(k, name) result(words)
     integer, intent(in) :: k
     character(len=*), intent(in) :: name
-    character(len=LINK_NAME_LENGTH) :: words
+    character(len=NAME_LENGTH) :: words
 
     words = name
     if (name == '') words = 'link '//text(k)
@@ -426,14 +431,15 @@ contains
     type(link_row), intent(in) :: row
     type(fuge_info), intent(inout) :: info
     type(link_row), allocatable :: larger(:)
-    integer :: stat
+    integer :: room, stat
 
-    if (.not. allocated(self%rows)) allocate (self%rows(0))
-    if (self%used == size(self%rows)) then
+    room = 0
+    if (allocated(self%rows)) room = size(self%rows)
+    if (self%used == room) then
       allocate (larger(max(16, 2*self%used)), stat=stat)
       call require_memory(stat, '', 2*self%used, 'links', info)
       if (stat /= 0) return
-      larger(:self%used) = self%rows
+      if (room > 0) larger(:self%used) = self%rows
       call move_alloc(larger, self%rows)
     end if
     self%used = self%used + 1

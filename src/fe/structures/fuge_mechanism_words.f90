@@ -5,7 +5,7 @@ module fuge_mechanism_words
   use fuge_nodal_modes, only: fuge_rigid_modes
   use fuge_number_text, only: index_text, text
   use fuge_lapack, only: dgelsy
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_DONE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_DONE
   implicit none
   private
 
@@ -23,7 +23,7 @@ contains
   !> move as a rigid body, the degree of freedom that moves most.
   !>
   !> `position` (2 or 3, nodes), length; `dof` (2 or 3, nodes) displacements of the nodes along the axes, 0 for those
-  !> that do not move. Error: FUGE_ERR_SIZE.
+  !> that do not move. Without nodes only the links are described. Errors: FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
   subroutine fuge_describe_mechanism(links, u, position, dof, info)
     type(fuge_links), intent(in) :: links
     real(dp), intent(in) :: u(:), position(:, :)
@@ -46,8 +46,8 @@ contains
       return
     end if
     call list_openings(links, u, words)
-    call add_movement(u, position, dof, words)
-    call report(info, FUGE_DONE, words)
+    if (size(dof) > 0) call add_movement(u, position, dof, words, info)
+    if (.not. info%failed()) call report(info, FUGE_DONE, words)
   end subroutine fuge_describe_mechanism
 
   !> Which links open, and which give way because their forces are at the limit.
@@ -97,16 +97,18 @@ contains
   end subroutine list_links
 
   !> '; the structure moves along y', '; .. turns about z', or what moves most.
-  subroutine add_movement(u, position, dof, words)
+  subroutine add_movement(u, position, dof, words, info)
     real(dp), intent(in) :: u(:), position(:, :)
     integer, intent(in) :: dof(:, :)
     character(len=:), allocatable, intent(inout) :: words
+    type(fuge_info), intent(inout) :: info
     real(dp) :: share(3*size(dof, 1) - 3)
     integer :: d
     logical :: rigid
 
     d = size(dof, 1)
-    call find_rigid_part(u, position, dof, share, rigid)
+    call find_rigid_part(u, position, dof, share, rigid, info)
+    if (info%failed()) return
     if (.not. rigid) then
       words = words//'; the structure is a mechanism, and degree of freedom '//index_text(maxloc(abs(u), dim=1)) &
               //' moves most'
@@ -137,17 +139,22 @@ contains
 
   !> Largest displacement of a node by each rigid motion in `u`, relative to the largest displacement of a node;
   !> `rigid`: nothing else is in `u` at the nodes.
-  subroutine find_rigid_part(u, position, dof, share, rigid)
+  subroutine find_rigid_part(u, position, dof, share, rigid, info)
     real(dp), intent(in) :: u(:), position(:, :)
     integer, intent(in) :: dof(:, :)
     real(dp), intent(out) :: share(:)
     logical, intent(out) :: rigid
+    type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: modes(:, :), factor(:, :), nodal(:), rest(:)
     real(dp) :: work(64*(2 + 2*size(share))), largest
-    integer :: pivots(size(share)), j, info, rank
+    integer :: pivots(size(share)), j, rank, stat, status
 
+    share = 0.0_dp
+    rigid = .false.
     allocate (modes(size(position), size(share)), factor(size(position), size(share)), nodal(size(dof)), &
-              rest(max(size(dof), size(share))))
+              rest(max(size(dof), size(share))), stat=stat)
+    call require_memory(stat, 'the rigid motions of', size(dof, 2), 'nodes', info)
+    if (stat /= 0) return
     modes = fuge_rigid_modes(position)
     nodal = 0.0_dp
     do j = 1, size(dof)
@@ -155,8 +162,6 @@ contains
         if (place > 0) nodal(j) = u(place)
       end associate
     end do
-    share = 0.0_dp
-    rigid = .false.
     largest = maxval(abs(nodal))
     if (.not. largest > 0.0_dp) return
     do j = 1, size(share)
@@ -167,7 +172,7 @@ contains
     rest(:size(nodal)) = nodal/largest
     pivots = 0
     call dgelsy(size(nodal), size(share), 1, factor, size(nodal), rest, size(rest), pivots, NOTHING, rank, work, &
-                size(work), info)
+                size(work), status)
     share = rest(:size(share))
     rigid = all(abs(nodal/largest - matmul(modes, share)) <= NOTHING)
     share = abs(share)

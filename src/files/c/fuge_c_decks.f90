@@ -1,17 +1,17 @@
 !> C bindings, section "decks".
 module fuge_c_decks
   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
-  use fuge_body_type, only: fuge_body
   use fuge_c_arrays, only: find_array, give
+  use fuge_c_links, only: give_links
   use fuge_c_types, only: copy_string, from_c_string, report_to_c, require_count, require_path, require_pointer, &
     set_handle, take_handle
   use fuge_deck_files, only: fuge_read_deck
-  use fuge_deck_rows, only: fuge_deck_contact, fuge_deck_loads, fuge_deck_supports
+  use fuge_deck_rows, only: fuge_deck_links, fuge_deck_loads, fuge_deck_supports
   use fuge_deck_tables, only: fuge_read_cases, fuge_read_links, fuge_read_supports
   use fuge_deck_type, only: fuge_deck, move_deck
   use fuge_kinds, only: dp
+  use fuge_links_type, only: fuge_links, infinite_if_none
   use fuge_number_text, only: index_text
-  use fuge_problem_type, only: fuge_problem
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
   implicit none
   private
@@ -139,24 +139,24 @@ contains
     integer(c_int) :: status
     type(fuge_deck), pointer :: deck
     type(fuge_info) :: info
-    real(dp), allocatable :: directions(:, :)
+    real(dp), pointer :: directions(:, :)
     integer :: k
 
     call find_deck(handle, deck, info)
     status = info%status
     if (info%failed()) return
     if (deck%link_count() == 0) return
-    allocate (directions(3, deck%link_count()))
+    call give(deck%links%node_a, node_a)
+    call give(deck%links%node_b, node_b)
+    call give(deck%links%gap, gap)
+    call give(infinite_if_none(deck%links%play), play)
+    call give(deck%links%compliance, compliance)
+    call give(infinite_if_none(deck%links%limit), limit)
+    if (.not. c_associated(direction)) return
+    call c_f_pointer(direction, directions, [3, deck%link_count()])
     do k = 1, deck%link_count()
       directions(:, k) = deck%links(k)%direction
     end do
-    call give(deck%links%node_a, node_a)
-    call give(deck%links%node_b, node_b)
-    call give(directions, direction)
-    call give(deck%links%gap, gap)
-    call give(deck%links%play, play)
-    call give(deck%links%compliance, compliance)
-    call give(deck%links%limit, limit)
   end function c_deck_get_links
 
   function c_deck_get_link_name(handle, k, name, length) bind(c, name='fuge_deck_get_link_name') result(status)
@@ -193,26 +193,23 @@ contains
     if (.not. info%failed()) call copy_string(deck%cases(k + 1)%name, name, length)
   end function c_deck_get_case_name
 
-  function c_deck_get_contact(handle, rows, node, direction, dof, normal, message, length) &
-    bind(c, name='fuge_deck_get_contact') result(status)
-    type(c_ptr), intent(in), value :: handle, node, direction, dof, normal, message
+  function c_deck_make_links(handle, rows, node, direction, links, message, length) &
+    bind(c, name='fuge_deck_make_links') result(status)
+    type(c_ptr), intent(in), value :: handle, node, direction, links, message
     integer(c_int), intent(in), value :: rows
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
     type(fuge_deck), pointer :: deck
     integer(c_int), pointer :: nodes(:), directions(:)
-    type(fuge_body) :: body
-    type(fuge_problem) :: problem
+    type(fuge_links) :: made
     type(fuge_info) :: info
 
     call find_rows(handle, rows, node, direction, deck, nodes, directions, info)
-    if (.not. info%failed()) call fuge_deck_contact(deck, int(nodes), int(directions), body, problem, info)
-    if (.not. info%failed()) then
-      call give(body%dof - 1, dof)
-      call give(body%normal, normal)
-    end if
+    call require_pointer(links, 'links', info)
+    if (.not. info%failed()) call fuge_deck_links(deck, int(nodes), int(directions), made, info)
+    if (.not. info%failed()) call give_links(made, links, info)
     status = report_to_c(info, message, length)
-  end function c_deck_get_contact
+  end function c_deck_make_links
 
   !> What functions with the rows of a matrix are given.
   subroutine find_rows(handle, rows, node, direction, deck, nodes, directions, info)

@@ -2,12 +2,13 @@
 !> commas, semicolons or blanks, comments from # on.
 module fuge_deck_tables
   use fuge_condition_table, only: condition_table
-  use fuge_deck_type, only: fuge_deck, fuge_deck_case, fuge_deck_link, fuge_deck_value, new_link, NAME_LENGTH
+  use fuge_deck_type, only: fuge_deck, fuge_deck_case, fuge_deck_link, fuge_deck_value, new_link, place_text, &
+    NAME_LENGTH
   use fuge_entry_numbers, only: read_label, read_value
   use fuge_kinds, only: dp
   use fuge_number_records, only: number_records
   use fuge_number_text, only: text
-  use fuge_row_table, only: LARGEST_DIRECTION
+  use fuge_row_table, only: row_table, LARGEST_DIRECTION
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
   use fuge_text_columns, only: begin_columns, next_column
   use fuge_text_numbers, only: quoted
@@ -41,10 +42,11 @@ contains
     type(fuge_deck_link), allocatable :: links(:)
     character(len=:), allocatable :: reason
     integer :: n, old, stat
-    logical :: exists
+    logical :: begun, exists
 
     call file%load(path, info)
     if (info%failed()) return
+    begun = .false.
     old = deck%link_count()
     allocate (links(old + file%count_lines()), stat=stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, file%name//': no memory for its links')
@@ -52,15 +54,12 @@ contains
     if (old > 0) links(:old) = deck%links
     n = old
     do
-      call file%advance(exists)
+      call next_row(file, begun, exists)
       if (.not. exists) exit
-      associate (line => file%content(file%first:file%last))
-        if (begin_columns(line) > len(line) .or. (n == old .and. is_heading(line))) cycle
-        n = n + 1
-        call read_link(line, n - old, links(n), reason)
-        links(n)%file = path_count(deck) + 1
-        links(n)%line = file%line
-      end associate
+      n = n + 1
+      call read_link(file%content(file%first:file%last), n - old, links(n), reason)
+      links(n)%file = deck%file_count() + 1
+      links(n)%line = file%line
       if (allocated(reason)) call file%refuse(reason, info)
       if (info%failed()) return
     end do
@@ -68,29 +67,40 @@ contains
                               //'needed')
     if (info%failed()) return
     deck%links = links(:n)
-    call add_path(path, deck)
+    call add_path(deck, path, deck%paths)
   end subroutine fuge_read_links
 
-  !> Number of the files of a deck.
-  pure function path_count(deck) result(n)
+  !> The paths of a deck, and another one.
+  pure subroutine add_path(deck, path, paths)
     type(fuge_deck), intent(in) :: deck
-    integer :: n
-    integer :: k
-
-    n = 0
-    if (.not. allocated(deck%paths)) return
-    do k = 1, len(deck%paths)
-      if (deck%paths(k:k) == achar(0)) n = n + 1
-    end do
-  end function path_count
-
-  pure subroutine add_path(path, deck)
     character(len=*), intent(in) :: path
-    type(fuge_deck), intent(inout) :: deck
+    character(len=:), allocatable, intent(inout) :: paths
 
-    if (.not. allocated(deck%paths)) deck%paths = ''
-    deck%paths = deck%paths//trim(path)//achar(0)
+    if (allocated(deck%paths)) then
+      paths = deck%paths//trim(path)//achar(0)
+    else
+      paths = trim(path)//achar(0)
+    end if
   end subroutine add_path
+
+  !> Advance to the next line with columns, but for a heading before all others; `begun` tells whether there was a line.
+  pure subroutine next_row(file, begun, exists)
+    type(text_file), intent(inout) :: file
+    logical, intent(inout) :: begun
+    logical, intent(out) :: exists
+    logical :: skipped
+
+    do
+      call file%advance(exists)
+      if (.not. exists) return
+      associate (line => file%content(file%first:file%last))
+        if (begin_columns(line) > len(line)) cycle
+        skipped = .not. begun .and. is_heading(line)
+      end associate
+      begun = .true.
+      if (.not. skipped) return
+    end do
+  end subroutine next_row
 
   !> Does the line begin with a letter?
   pure function is_heading(line)
@@ -177,22 +187,24 @@ contains
     character(len=NAME_LENGTH), allocatable :: names(:)
     character(len=:), allocatable :: reason
     integer :: stat
-    logical :: exists
+    logical :: begun, exists
 
     call file%load(path, info)
     if (info%failed()) return
     stat = 0
+    begun = .false.
     allocate (names(0))
     do
       call file%advance(exists)
       if (.not. exists) exit
       associate (line => file%content(file%first:file%last))
         if (begin_columns(line) > len(line)) cycle
-        if (size(names) == 0) then
+        if (.not. begun) then
+          begun = .true.
           call read_names(line, deck%case_count(), names)
           if (is_heading(line)) cycle
         end if
-        call read_row(line, [path_count(deck) + 1, file%line], size(names), rows, reason, stat)
+        call read_row(line, [deck%file_count() + 1, file%line], size(names), rows, reason, stat)
       end associate
       if (allocated(reason)) call file%refuse(reason, info)
       if (stat /= 0) call report(info, FUGE_ERR_MEMORY, file%name//': no memory for its forces')
@@ -200,8 +212,8 @@ contains
     end do
     if (rows%count == 0) call report(info, FUGE_ERR_FILE, file%name//' has no forces: lines like 17.3,-100 are needed')
     if (info%failed()) return
-    call add_cases(names, rows, deck, info)
-    if (.not. info%failed()) call add_path(path, deck)
+    call add_cases(file%name, names, rows, deck, info)
+    if (.not. info%failed()) call add_path(deck, path, deck%paths)
   end subroutine fuge_read_cases
 
   !> The names of the cases, as many as there are columns after the first one; without a heading they are numbered,
@@ -239,6 +251,8 @@ contains
     integer :: direction, dot, first, i, k, last, node, separator
 
     call check_separators(line, reason)
+    if (cases < 1 .and. .not. allocated(reason)) reason = 'a force for each load case is needed after node and ' &
+      //'direction'
     if (allocated(reason)) return
     k = begin_columns(line)
     call next_column(line, k, first, last, separator)
@@ -260,25 +274,26 @@ contains
     if (.not. allocated(reason)) call rows%append(place, [node, direction], force, status)
   end subroutine read_row
 
-  !> Errors: FUGE_ERR_FILE for a degree of freedom with two lines; FUGE_ERR_MEMORY.
-  pure subroutine add_cases(names, rows, deck, info)
+  !> Add the load cases of the file `path`, as messages quote it. Errors: FUGE_ERR_FILE for a degree of freedom with two
+  !> lines; FUGE_ERR_MEMORY.
+  pure subroutine add_cases(path, names, rows, deck, info)
+    character(len=*), intent(in) :: path
     character(len=NAME_LENGTH), intent(in) :: names(:)
     type(number_records), intent(in) :: rows
     type(fuge_deck), intent(inout) :: deck
     type(fuge_info), intent(inout) :: info
     type(fuge_deck_case), allocatable :: cases(:)
-    type(condition_table) :: known
-    character(len=:), allocatable :: reason
-    integer :: i, k, old, stat
+    type(row_table) :: known
+    integer :: i, k, number, old, stat
 
     old = deck%case_count()
     allocate (cases(old + size(names)), stat=stat)
     if (stat == 0 .and. old > 0) cases(:old) = deck%cases
     do k = 1, rows%count
-      ! Two lines are two different displacements to the table.
-      call known%hold(rows%whole(1, k), rows%whole(2, k), real(k, dp), [rows%place(:, k), 1], reason, stat)
-      if (.not. allocated(reason)) cycle
-      call report(info, FUGE_ERR_FILE, 'line '//text(rows%place(2, k))//' of the load cases: a second line for node ' &
+      if (stat == 0) call known%number_of(rows%whole(1, k), rows%whole(2, k), number, stat)
+      if (stat /= 0) exit
+      if (number == k) cycle
+      call report(info, FUGE_ERR_FILE, path//', line '//text(rows%place(2, k))//': a second line for node ' &
                   //text(rows%whole(1, k))//', direction '//text(rows%whole(2, k)))
       return
     end do
@@ -293,7 +308,7 @@ contains
       if (allocated(deck%supports)) cases(old + i)%supports = deck%supports
       if (.not. allocated(deck%supports)) allocate (cases(old + i)%supports(0))
     end do
-    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, 'no memory for the load cases')
+    if (stat /= 0) call report(info, FUGE_ERR_MEMORY, path//': no memory for its load cases')
     if (stat == 0) call move_alloc(cases, deck%cases)
   end subroutine add_cases
 
@@ -309,67 +324,75 @@ contains
     type(text_file) :: file
     type(condition_table) :: held
     type(fuge_deck_case), allocatable :: cases(:)
-    type(fuge_deck_value), allocatable :: supports(:)
-    character(len=:), allocatable :: reason
-    integer :: k, lines, stat
-    logical :: exists
+    type(fuge_deck_value), allocatable :: found(:), supports(:)
+    character(len=:), allocatable :: paths, reason
+    integer :: k, stat
+    logical :: begun, exists
 
     call file%load(path, info)
-    lines = 0
+    call add_path(deck, path, paths)
+    begun = .false.
     stat = 0
     do while (.not. info%failed())
-      call file%advance(exists)
+      call next_row(file, begun, exists)
       if (.not. exists) exit
-      associate (line => file%content(file%first:file%last))
-        if (begin_columns(line) > len(line) .or. (lines == 0 .and. is_heading(line))) cycle
-        lines = lines + 1
-        call read_support(line, [path_count(deck) + 1, file%line, 1], held, reason, stat)
-      end associate
+      call read_support(file%content(file%first:file%last), [deck%file_count() + 1, file%line, 1], paths, held, &
+                        reason, stat)
       if (allocated(reason)) call file%refuse(reason, info)
     end do
-    if (.not. info%failed() .and. lines == 0) call report(info, FUGE_ERR_FILE, file%name//' has no support: lines ' &
-                                                          //'like 17,xyz are needed')
+    call held%copy_to(found, stat)
+    if (stat == 0 .and. .not. info%failed()) then
+      if (size(found) == 0) call report(info, FUGE_ERR_FILE, file%name//' has no support: lines like 17,xyz are needed')
+    end if
     if (info%failed()) return
-    call held%copy_to(supports, stat)
     if (stat == 0) allocate (cases(deck%case_count()), stat=stat)
-    do k = 1, size(cases)
+    do k = 1, deck%case_count()
+      if (stat /= 0) exit
       cases(k) = deck%cases(k)
-      call join(supports, cases(k)%supports, reason, stat)
+      call join(found, paths, cases(k)%supports, reason, stat)
     end do
-    call join(deck%supports, supports, reason, stat)
+    if (allocated(deck%supports)) supports = deck%supports
+    call join(found, paths, supports, reason, stat)
     if (stat /= 0) call report(info, FUGE_ERR_MEMORY, file%name//': no memory for its supports')
-    if (allocated(reason)) call report(info, FUGE_ERR_FILE, file%name//': '//reason)
+    if (allocated(reason)) call report(info, FUGE_ERR_FILE, reason)
     if (info%failed()) return
     call move_alloc(cases, deck%cases)
     call move_alloc(supports, deck%supports)
-    call add_path(path, deck)
+    call move_alloc(paths, deck%paths)
   end subroutine fuge_read_supports
 
-  !> Add `more` supports, if there are any, to those of a list.
-  pure subroutine join(more, supports, reason, status)
-    type(fuge_deck_value), allocatable, intent(in) :: more(:)
+  !> Add the supports that are `found` to those of a list; `reason`, with its place, if one contradicts the list.
+  pure subroutine join(found, paths, supports, reason, status)
+    type(fuge_deck_value), intent(in) :: found(:)
+    character(len=*), intent(in) :: paths
     type(fuge_deck_value), allocatable, intent(inout) :: supports(:)
     character(len=:), allocatable, intent(inout) :: reason
     integer, intent(inout) :: status
     type(condition_table) :: held
+    character(len=:), allocatable :: place
     integer :: k
 
+    if (allocated(reason) .or. status /= 0) return
     if (allocated(supports)) then
       do k = 1, size(supports)
         call held%hold(supports(k)%node, supports(k)%direction, supports(k)%value, &
-                       [supports(k)%file, supports(k)%line, 1], reason, status)
+                       [supports(k)%file, supports(k)%line, 1], paths, reason, status)
       end do
     end if
-    if (allocated(more)) then
-      do k = 1, size(more)
-        call held%hold(more(k)%node, more(k)%direction, more(k)%value, [more(k)%file, more(k)%line, 1], reason, status)
-      end do
-    end if
+    do k = 1, size(found)
+      call held%hold(found(k)%node, found(k)%direction, found(k)%value, [found(k)%file, found(k)%line, 1], paths, &
+                     reason, status)
+      if (.not. allocated(reason)) cycle
+      call place_text(paths, found(k)%file, found(k)%line, place)
+      reason = place//': '//reason
+      return
+    end do
     call held%copy_to(supports, status)
   end subroutine join
 
-  pure subroutine read_support(line, origin, held, reason, status)
-    character(len=*), intent(in) :: line
+  !> A line of supports.
+  pure subroutine read_support(line, origin, paths, held, reason, status)
+    character(len=*), intent(in) :: line, paths
     integer, intent(in) :: origin(3)
     type(condition_table), intent(inout) :: held
     character(len=:), allocatable, intent(inout) :: reason
@@ -394,7 +417,7 @@ contains
       direction = index(AXES, line(i:i))
       if (direction > 3) direction = direction - 3
       if (direction == 0) direction = iachar(line(i:i)) - iachar('0')
-      call held%hold(node, direction, value, origin, reason, status)
+      call held%hold(node, direction, value, origin, paths, reason, status)
     end do
   end subroutine read_support
 

@@ -2,6 +2,7 @@
 module fuge_input_deck
   use fuge_mesh_type, only: NAME_LENGTH
   use fuge_number_text, only: text
+  use fuge_path_list, only: count_paths
   use fuge_status, only: fuge_info
   use fuge_text_columns, only: after_blanks
   use fuge_text_numbers, only: quoted
@@ -27,6 +28,8 @@ module fuge_input_deck
     type(text_file) :: file(MOST_FILES)
     integer :: depth = 0
     integer, private :: included = 0
+    !> Numbers of the open files among the paths.
+    integer, private :: number(MOST_FILES) = 0
     !> Paths of all files, each once and ended by achar(0).
     character(len=:), allocatable :: paths
     !> Folder of the first file, with / at its end, for paths of included files.
@@ -45,6 +48,8 @@ module fuge_input_deck
     procedure :: parameter
     procedure :: has
     procedure :: refuse
+    procedure :: place
+    procedure :: rewind
   end type input_deck
 
 contains
@@ -69,6 +74,7 @@ contains
 
     self%folder = path(:scan(path, '/\', back=.true.))
     self%depth = 1
+    self%number(1) = 1
     self%paths = trim(path)//achar(0)
     call self%file(1)%load(path, info)
   end subroutine open
@@ -98,12 +104,33 @@ contains
     class(input_deck), intent(inout) :: deck
     character(len=*), intent(in) :: path
     type(fuge_info), intent(inout) :: info
+    integer :: begin
 
     deck%depth = deck%depth + 1
     deck%included = deck%included + 1
-    if (index(achar(0)//deck%paths, achar(0)//path//achar(0)) == 0) deck%paths = deck%paths//path//achar(0)
+    begin = index(achar(0)//deck%paths, achar(0)//path//achar(0))
+    if (begin == 0) begin = len(deck%paths) + 1
+    if (begin > len(deck%paths)) deck%paths = deck%paths//path//achar(0)
+    deck%number(deck%depth) = count_paths(deck%paths(:begin - 1)) + 1
     call deck%file(deck%depth)%load(path, info)
   end subroutine enter
+
+  !> Go back before the first line of the first file.
+  pure subroutine rewind(self)
+    class(input_deck), intent(inout) :: self
+
+    self%depth = 1
+    self%included = 0
+    call self%file(1)%rewind()
+  end subroutine rewind
+
+  !> The number of the present file among the paths, and the number of the present line.
+  pure function place(self)
+    class(input_deck), intent(in) :: self
+    integer :: place(2)
+
+    place = [self%number(self%depth), self%file(self%depth)%line]
+  end function place
 
   !> Report that the present line cannot be used (FUGE_ERR_FILE).
   pure subroutine refuse(self, reason, info)

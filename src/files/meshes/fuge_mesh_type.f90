@@ -1,13 +1,12 @@
 !> A mesh as an input file of a finite element program describes it: nodes, elements, sets and surfaces.
 module fuge_mesh_type
+  use fuge_constants, only: NAME_LENGTH
   use fuge_kinds, only: dp
   implicit none
   private
 
-  public :: move_mesh, move_text
+  public :: move_mesh, move_text, NAME_LENGTH
 
-  !> Longest name of a set or a surface.
-  integer, parameter, public :: NAME_LENGTH = 80
   !> Longest name of a type of elements.
   integer, parameter, public :: TYPE_LENGTH = 16
 

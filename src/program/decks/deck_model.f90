@@ -1,7 +1,7 @@
 !> A structure with one-way links: what the deck, its tables and the stiffness matrix have.
 module deck_model
   use command_line, only: arguments, refuse
-  use fuge, only: dp => fuge_dp, fuge_body, fuge_deck, fuge_deck_contact, fuge_deck_loads, fuge_info, fuge_problem, &
+  use fuge, only: dp => fuge_dp, fuge_deck, fuge_deck_links, fuge_deck_loads, fuge_info, fuge_links, &
     fuge_read_cases, fuge_read_deck, fuge_read_links, fuge_read_stiffness, fuge_read_supports
   use number_words, only: number_text
   use option_checks, only: check_input
@@ -14,9 +14,7 @@ module deck_model
     !> The stiffness matrix in compressed columns, and the names of its rows.
     integer, allocatable :: column(:), row(:), node(:), direction(:)
     real(dp), allocatable :: value(:)
-    !> A contact point for each link.
-    type(fuge_body) :: body
-    type(fuge_problem) :: problem
+    type(fuge_links) :: links
     !> Forces, (rows, cases).
     real(dp), allocatable :: loads(:, :)
   contains
@@ -63,7 +61,7 @@ contains
                   //'by --rows', info)
       return
     end if
-    call fuge_deck_contact(self%deck, self%node, self%direction, self%body, self%problem, info)
+    call fuge_deck_links(self%deck, self%node, self%direction, self%links, info)
     if (.not. info%failed()) call fuge_deck_loads(self%deck, self%node, self%direction, self%loads, info)
   end subroutine read_structure
 
@@ -72,14 +70,12 @@ contains
     type(arguments), intent(in) :: given
     type(fuge_deck), intent(in) :: deck
     type(fuge_info), intent(inout) :: info
-    integer :: begin, length
+    character(len=:), allocatable :: path
+    integer :: k
 
-    begin = 1
-    do while (begin <= len(deck%paths))
-      length = index(deck%paths(begin:), achar(0)) - 1
-      call check_input(given, deck%paths(begin:begin + length - 1), &
-                       'the same file as of --deck or of one that it includes', info)
-      begin = begin + length + 1
+    do k = 1, deck%file_count()
+      call deck%get_file(k, path)
+      call check_input(given, path, 'the same file as of --deck or of one that it includes', info)
     end do
     if (info%failed()) return
     if (deck%link_count() < 1) then

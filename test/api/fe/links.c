@@ -77,9 +77,15 @@ static void test_cases(void) {
   for (int k = 0; k < CASES; k++) force[k] = SENTINEL;
   for (int k = 0; k < D * CASES; k++) u[k] = SENTINEL;
   CHECK_DONE(fuge_links_pose(s.links, s.body, s.solver));
-  CHECK_STATUS(fuge_body_get_cases(s.body, CASES, loads, b, NULL, status), FUGE_WARN_CASES);
+  CHECK_STATUS(fuge_body_get_cases(s.body, CASES, loads, NULL, b, NULL, status), FUGE_WARN_CASES);
   CHECK_DONE(fuge_body_message(s.body, message, sizeof message));
   CHECK_CONTAINS(message, "1 of 3 load cases are refused; load case 1: ");
+  CHECK_DONE(fuge_body_case_message(s.body, 1, message, sizeof message));
+  CHECK_CONTAINS(message, "load(0) ");
+  CHECK_DONE(fuge_body_case_message(s.body, 2, message, sizeof message));
+  CHECK_STRING(message, "");
+  CHECK_STATUS(fuge_body_case_message(s.body, 3, message, sizeof message), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_case_message(s.body, -1, message, sizeof message), FUGE_ERR_SIZE);
   CHECK_INT(status[0], FUGE_DONE);
   CHECK_INT(status[1], FUGE_ERR_NOT_FINITE);
   CHECK_INT(status[2], FUGE_DONE);
@@ -91,8 +97,37 @@ static void test_cases(void) {
   CHECK_STATUS(fuge_solve_cases(s.solver, CASES, b, NULL, force, NULL, NULL, status), FUGE_WARN_CASES);
   CHECK_INT(status[1], FUGE_ERR_NOT_FINITE);
   CHECK_VALUES(force, 1e-13, 5.0, SENTINEL, 0.0);
-  CHECK_DONE(fuge_body_recover_cases(s.body, CASES, loads, force, NULL, u, status));
-  CHECK_VALUES(u, 1e-15, -0.03, -0.04, SENTINEL, SENTINEL, 0.06, 0.08);
+  CHECK_DONE(fuge_body_recover_cases(s.body, CASES, loads, NULL, force, NULL, u, status));
+  CHECK_VALUES(u, 1e-15, -0.03, -0.04);
+  CHECK(isnan(u[2]) && isnan(u[3]));
+  CHECK_NEAR(u[4], 0.06, 1e-15);
+  CHECK_NEAR(u[5], 0.08, 1e-15);
+  CHECK_DONE(fuge_body_case_message(s.body, 1, message, sizeof message));
+  CHECK_STRING(message, "");
+  clean(&s);
+}
+
+/* A gap from a support, which moves in each load case, to a spring; and a gap that supports hold. */
+static void test_displaced_supports(void) {
+  const double bars[9] = {100.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  const double loads[6] = {0.0}, supports[4] = {0.25, 0.0, -0.5, 0.125}, along = 1.0;
+  const int fixed[2] = {1, 2}, spring = 0, first = 1, second = 2;
+  double b[4], force[4], u[6];
+  struct structure s = {NULL, NULL, NULL, NULL};
+  CHECK_DONE(fuge_body_dense(3, bars, 3, &s.body, NULL, 0));
+  CHECK_DONE(fuge_body_fix(s.body, 2, fixed, NULL));
+  CHECK_DONE(fuge_links_create(&s.links, NULL, 0));
+  CHECK_DONE(fuge_links_add_gap(s.links, 1, &first, &spring, &along, NULL, "between"));
+  CHECK_DONE(fuge_links_add_gap(s.links, 1, &second, &first, &along, NULL, "held"));
+  condense(&s);
+  CHECK_DONE(fuge_links_pose(s.links, s.body, s.solver));
+  CHECK_DONE(fuge_body_get_cases(s.body, 2, loads, supports, b, NULL, NULL));
+  CHECK_VALUES(b, 1e-15, -0.25, 0.25, 0.5, -0.625);
+  b[3] += 1.0;
+  CHECK_DONE(fuge_solve_cases(s.solver, 2, b, NULL, force, NULL, NULL, NULL));
+  CHECK_VALUES(force, 1e-13, 25.0, 0.0, 0.0, 0.0);
+  CHECK_DONE(fuge_body_recover_cases(s.body, 2, loads, supports, force, NULL, u, NULL));
+  CHECK_VALUES(u, 1e-15, 0.25, 0.25, 0.0, 0.0, -0.5, 0.125);
   clean(&s);
 }
 
@@ -153,16 +188,17 @@ static void test_floating_cases(void) {
   int status[2];
   struct structure s = floating();
   CHECK_DONE(fuge_links_pose(s.links, s.body, s.solver));
-  CHECK_DONE(fuge_body_get_cases(s.body, 2, loads, b, w, status));
+  CHECK_DONE(fuge_body_get_cases(s.body, 2, loads, NULL, b, w, status));
   CHECK_NEAR(w[0] + w[1], 0.0, 1e-13);
   CHECK(fabs(w[0]) > 1.0);
   for (int k = 0; k < 2; k++) b[k] += 0.5;
   CHECK_STATUS(fuge_solve_cases(s.solver, 2, b, w, force, NULL, motion, status), FUGE_WARN_CASES);
   CHECK_INT(status[0], FUGE_DONE);
   CHECK_INT(status[1], FUGE_ERR_NO_EQUILIBRIUM);
-  CHECK_DONE(fuge_body_recover_cases(s.body, 2, loads, force, motion, u, status));
-  CHECK_VALUES(u, 1e-13, -0.5, -4.5, SENTINEL, SENTINEL);
-  CHECK_STATUS(fuge_body_recover_cases(s.body, 2, loads, force, NULL, u, status), FUGE_ERR_POINTER);
+  CHECK_DONE(fuge_body_recover_cases(s.body, 2, loads, NULL, force, motion, u, status));
+  CHECK_VALUES(u, 1e-13, -0.5, -4.5);
+  CHECK(isnan(u[2]) && isnan(u[3]));
+  CHECK_STATUS(fuge_body_recover_cases(s.body, 2, loads, NULL, force, NULL, u, status), FUGE_ERR_POINTER);
   clean(&s);
 }
 
@@ -244,10 +280,13 @@ static void test_refusals(void) {
   CHECK_STATUS(fuge_links_pose(other.links, s.body, s.solver), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_links_pose(s.links, s.body, NULL), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_links_pose(s.links, NULL, s.solver), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_body_get_cases(s.body, 0, x, &value, NULL, &n), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_body_get_cases(s.body, 1, NULL, &value, NULL, &n), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_body_get_cases(NULL, 1, x, &value, NULL, &n), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_body_recover_cases(s.body, 1, x, NULL, NULL, &value, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_get_cases(s.body, 0, x, NULL, &value, NULL, &n), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_body_get_cases(s.body, 1, NULL, NULL, &value, NULL, &n), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_get_cases(NULL, 1, x, NULL, &value, NULL, &n), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_recover_cases(s.body, 1, x, NULL, NULL, NULL, &value, NULL), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_case_message(s.body, 0, message, sizeof message), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_body_case_message(s.body, 0, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_body_case_message(NULL, 0, message, sizeof message), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_body_find_mechanism(s.body, NULL, &value), FUGE_ERR_POINTER);
   CHECK_UNTOUCHED(&value, 1);
   CHECK_INT(n, -1);
@@ -260,6 +299,7 @@ static void test_refusals(void) {
 int main(void) {
   test_cable();
   test_cases();
+  test_displaced_supports();
   test_mechanism();
   test_floating_cases();
   test_gap();

@@ -6,8 +6,11 @@ static const char *const NAME = "api_decks_scratch";
 static void test_deck(void) {
   const int node[5] = {1, 1, 2, 2, 2}, direction[5] = {1, 3, 1, 2, 3};
   fuge_deck *deck = NULL;
-  int links = -1, cases = -1, a[2], b[2], dof[12], count = -1, fixed[4] = {-9, -9, -9, -9};
-  double along[6], gap[2], play[2], compliance[2], limit[2], normal[12], loads[15], displacement[4];
+  const double u[5] = {0., 0., 0., -1., 0.}, position[2] = {0., 0.};
+  const int places[2] = {-1, -1};
+  fuge_links *made = NULL;
+  int links = -1, cases = -1, a[2], b[2], count = -1, fixed[4] = {-9, -9, -9, -9};
+  double along[6], gap[2], play[2], compliance[2], limit[2], loads[15], displacement[4];
   char message[256] = "old", name[81];
   write_file(NAME, "SPC = 4\nSUBCASE 7\nLOAD = 3\nSUBCASE 9\nBEGIN BULK\nGRID,1\nGRID,2,,0.,0.,2.\nCGAP,12,5,1,2\n"
              "PGAP,5,.5,,4.\nFORCE,3,2,,2.,0.,0.,-1.\nSPC,4,1,13,.25\n");
@@ -38,11 +41,15 @@ static void test_deck(void) {
   CHECK_MESSAGE(fuge_deck_get_case_name(deck, 1, name, sizeof name), FUGE_DONE, name, "SUBCASE 9");
   CHECK_STATUS(fuge_deck_get_link_name(deck, 2, name, sizeof name), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_deck_get_case_name(deck, -1, name, sizeof name), FUGE_ERR_SIZE);
-  CHECK_DONE(fuge_deck_get_contact(deck, 5, node, direction, dof, normal, message, sizeof message));
-  CHECK(dof[2] == 4 && dof[5] == 1 && dof[0] == -1 && dof[7] == 3);
-  CHECK_NEAR(normal[2], 1., 0.);
-  CHECK_NEAR(normal[5], -1., 0.);
-  CHECK_NEAR(normal[7], -1., 0.);
+  CHECK_DONE(fuge_deck_make_links(deck, 5, node, direction, &made, message, sizeof message));
+  CHECK_DONE(fuge_links_get_count(made, &count));
+  CHECK_INT(count, 2);
+  CHECK_DONE(fuge_links_get_gaps(made, gap));
+  CHECK_NEAR(gap[0], 0.5, 0.);
+  CHECK_NEAR(gap[1], 1., 0.);
+  CHECK_MESSAGE(fuge_links_describe(made, 5, u, 2, 1, position, places, message, sizeof message), FUGE_DONE, message,
+                "rope opens; the structure is a mechanism, and degree of freedom 3 moves most");
+  fuge_links_free(&made);
   CHECK_DONE(fuge_deck_get_loads(deck, 5, node, direction, loads, message, sizeof message));
   CHECK_NEAR(loads[4], -2., 0.);
   CHECK_NEAR(loads[12], 8., 0.);
@@ -56,8 +63,12 @@ static void test_deck(void) {
                FUGE_ERR_SIZE);
   CHECK_STRING(message, "the deck has no load case 3");
   CHECK_STATUS(fuge_deck_get_supports(deck, 0, 5, node, direction, 0, NULL, NULL, NULL, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_deck_get_contact(deck, 0, node, direction, dof, normal, NULL, 0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_deck_get_contact(NULL, 5, node, direction, dof, normal, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_deck_make_links(deck, 0, node, direction, &made, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(fuge_deck_make_links(NULL, 5, node, direction, &made, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_deck_make_links(deck, 5, node, direction, NULL, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_deck_make_links(deck, 4, node, direction, &made, message, sizeof message), FUGE_ERR_DOF);
+  CHECK_CONTAINS(message, "the matrix has no row of node 2, direction 3, but SUBCASE 7 has no support there");
+  CHECK(made == NULL);
   CHECK_STATUS(fuge_deck_get_loads(deck, 5, NULL, direction, loads, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_deck_get_links(NULL, a, b, along, gap, play, compliance, limit), FUGE_ERR_POINTER);
   fuge_deck_free(&deck);

@@ -6,11 +6,10 @@ module fuge_bulk_cards
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   use fuge_text_columns, only: after_blanks
-  use fuge_text_reader, only: quoted_path
   implicit none
   private
 
-  public :: next_card, path_of_include
+  public :: next_bulk_line, next_card
 
   !> Longest field: free fields may be longer than sixteen columns.
   integer, parameter, public :: FIELD_LENGTH = 32
@@ -106,7 +105,7 @@ contains
 
     call move_card(reader%begun, card)
     do while (.not. reader%ended)
-      call next_line(reader, exists, length, info)
+      call next_bulk_line(reader%deck, exists, length, info)
       if (info%failed() .or. .not. exists) exit
       associate (file => reader%deck%file(reader%deck%depth))
         call split_bulk_line(file%content(file%first:file%first + length - 1), fields)
@@ -162,8 +161,8 @@ contains
 
   !> The next line of the deck and of the files that it includes, and its length without the comment after $.
   !> Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
-  subroutine next_line(reader, exists, length, info)
-    type(card_reader), intent(inout) :: reader
+  subroutine next_bulk_line(deck, exists, length, info)
+    type(input_deck), intent(inout) :: deck
     logical, intent(out) :: exists
     integer, intent(out) :: length
     type(fuge_info), intent(inout) :: info
@@ -171,26 +170,26 @@ contains
 
     length = 0
     do
-      call reader%deck%file(reader%deck%depth)%advance(exists)
+      call deck%file(deck%depth)%advance(exists)
       if (.not. exists) then
-        if (reader%deck%depth == 1) return
-        reader%deck%file(reader%deck%depth)%content = ''
-        reader%deck%depth = reader%deck%depth - 1
+        if (deck%depth == 1) return
+        deck%file(deck%depth)%content = ''
+        deck%depth = deck%depth - 1
         cycle
       end if
-      associate (file => reader%deck%file(reader%deck%depth))
+      associate (file => deck%file(deck%depth))
         length = index(file%content(file%first:file%last)//'$', '$') - 1
         call path_of_include(file%content(file%first:file%first + length - 1), path)
       end associate
       if (.not. allocated(path)) return
       if (index(path, achar(0)) > 0) then
-        call reader%deck%refuse('INCLUDE needs a path in quotes, which ends on its line', info)
+        call deck%refuse('INCLUDE needs a path in quotes, which ends on its line', info)
       else
-        call reader%deck%include(path, info)
+        call deck%include(path, info)
       end if
       if (info%failed()) return
     end do
-  end subroutine next_line
+  end subroutine next_bulk_line
 
   !> The path of a line INCLUDE 'path'; achar(0) if there is none, not allocated on another line.
   pure subroutine path_of_include(line, path)
@@ -227,28 +226,9 @@ contains
 
     card%name = upper_case(fields%keyword)
     card%count = 0
-    associate (file => reader%deck%file(reader%deck%depth))
-      card%place = [path_number(reader%deck%paths, file%name), file%line]
-    end associate
+    card%place = reader%deck%place()
     call append_fields(line, fields, card, reader%status)
   end subroutine begin_card
-
-  !> The number of a path, as messages quote it, among `paths`.
-  pure function path_number(paths, name) result(number)
-    character(len=*), intent(in) :: paths, name
-    integer :: number
-    integer :: begin, length
-
-    number = 1
-    begin = 1
-    do while (begin <= len(paths))
-      length = index(paths(begin:), achar(0)) - 1
-      if (quoted_path(paths(begin:begin + length - 1)) == name) return
-      number = number + 1
-      begin = begin + length + 1
-    end do
-    number = 1
-  end function path_number
 
   !> Add the fields of a line. A line of eight fields begins a new row of eight, whatever was before. A field that is
   !> too long for a number becomes a text that is none.

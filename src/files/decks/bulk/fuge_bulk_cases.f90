@@ -13,7 +13,10 @@ module fuge_bulk_cases
 
   !> All that loads and supports are made of.
   type, public :: bulk_conditions
-    type(number_records) :: nodes, forces, load_sums, supports, support_sums, displacements, unread, subcases
+    type(number_records) :: nodes, scalar_points, forces, load_sums, supports, support_sums, displacements, unread, &
+      subcases
+    !> Those of the deck.
+    character(len=:), allocatable :: paths
   end type bulk_conditions
 
   !> Why a case cannot be made, and the place of the card that is wrong; the line is 0 if it is none.
@@ -61,32 +64,30 @@ contains
     integer, intent(inout) :: selected(3)
     type(refusal), intent(inout) :: refused
 
-    if (model%load_sums%count > 0) then
-      call only_set(model%load_sums, 'LOAD', selected(2), refused)
-    else
-      call only_set(model%forces, 'LOAD', selected(2), refused)
-      if (selected(2) == 0) call only_set(model%displacements, 'LOAD', selected(2), refused)
-      if (selected(2) == 0) call only_set(model%unread, 'LOAD', selected(2), refused)
-    end if
-    if (model%support_sums%count > 0) then
-      call only_set(model%support_sums, 'SPC', selected(3), refused)
-    else
-      call only_set(model%supports, 'SPC', selected(3), refused)
-    end if
+    call only_set(model%load_sums, model%load_sums, 'LOAD', selected(2), refused)
+    call only_set(model%forces, model%load_sums, 'LOAD', selected(2), refused)
+    call only_set(model%displacements, model%load_sums, 'LOAD', selected(2), refused)
+    call only_set(model%unread, model%load_sums, 'LOAD', selected(2), refused)
+    call only_set(model%support_sums, model%support_sums, 'SPC', selected(3), refused)
+    call only_set(model%supports, model%support_sums, 'SPC', selected(3), refused)
   end subroutine choose_sets
 
-  !> The set to which all records belong; 0 without records.
-  pure subroutine only_set(records, command, set, refused)
-    type(number_records), intent(in) :: records
+  !> Refuse a record that belongs neither to the set, which is that of the first record if it is 0, nor to one that the
+  !> set adds up.
+  pure subroutine only_set(records, sums, command, set, refused)
+    type(number_records), intent(in) :: records, sums
     character(len=*), intent(in) :: command
     integer, intent(inout) :: set
     type(refusal), intent(inout) :: refused
     integer :: k
 
     if (records%count == 0 .or. allocated(refused%reason)) return
-    set = records%whole(1, 1)
-    do k = 2, records%count
+    if (set == 0) set = records%whole(1, 1)
+    do k = 1, records%count
       if (records%whole(1, k) == set) cycle
+      if (sums%count > 0) then
+        if (any(sums%whole(1, :sums%count) == set .and. sums%whole(2, :sums%count) == records%whole(1, k))) cycle
+      end if
       refused%reason = 'the set '//text(records%whole(1, k))//' is another one than '//text(set)//': write the case ' &
         //'control that selects them, with SUBCASE, '//command//' = and BEGIN BULK'
       refused%place = records%place(:, k)
@@ -224,7 +225,7 @@ contains
 
     do k = 1, model%nodes%count
       if (model%nodes%whole(4, k) > 0) call hold_node(model%nodes%whole(1, k), model%nodes%whole(4, k), 0.0_dp, &
-                                                      model%nodes%place(:, k), held, refused)
+                                                      model%nodes%place(:, k), model%paths, held, refused)
     end do
     if (set == 0) return
     is_sum = .false.
@@ -259,16 +260,17 @@ contains
         refused%place = model%supports%place(:, k)
       else
         call hold_node(model%supports%whole(2, k), model%supports%whole(3, k), model%supports%value(1, k), &
-                       model%supports%place(:, k), held, refused)
+                       model%supports%place(:, k), model%paths, held, refused)
       end if
       if (allocated(refused%reason)) return
     end do
   end subroutine hold_set
 
   !> Hold a node in directions such as 123.
-  pure subroutine hold_node(node, directions, displacement, place, held, refused)
+  pure subroutine hold_node(node, directions, displacement, place, paths, held, refused)
     integer, intent(in) :: node, directions, place(2)
     real(dp), intent(in) :: displacement
+    character(len=*), intent(in) :: paths
     type(condition_table), intent(inout) :: held
     type(refusal), intent(inout) :: refused
     integer :: digits
@@ -276,7 +278,7 @@ contains
     if (allocated(refused%reason)) return
     digits = directions
     do
-      call held%hold(node, mod(digits, 10), displacement, [place, 1], refused%reason, refused%status)
+      call held%hold(node, mod(digits, 10), displacement, [place, 1], paths, refused%reason, refused%status)
       digits = digits/10
       if (digits == 0 .or. allocated(refused%reason)) exit
     end do

@@ -2,10 +2,10 @@
 module fuge_bulk_deck
   use fuge_bulk_cards, only: bulk_card, card_reader, next_card
   use fuge_bulk_cases, only: bulk_conditions, make_cases, refusal
-  use fuge_bulk_links, only: find_table, make_gap, make_spring, read_gap, read_gap_property, read_spring, &
-    read_spring_property, read_system, read_table
-  use fuge_bulk_loads, only: is_unread_load, read_force, read_load_sum, read_node, read_support, read_support_list, &
-    read_support_sum, read_unread_load
+  use fuge_bulk_links, only: find_table, make_gap, make_spring, needs_positions, read_gap, read_gap_property, &
+    read_spring, read_spring_property, read_system, read_table
+  use fuge_bulk_loads, only: is_unread_load, read_force, read_load_sum, read_node, read_scalar_points, read_support, &
+    read_support_list, read_support_sum, read_unread_load
   use fuge_case_control, only: read_case_control
   use fuge_deck_type, only: fuge_deck, fuge_deck_link, place_text
   use fuge_kinds, only: dp
@@ -44,6 +44,7 @@ contains
     if (.not. info%failed()) call read_cards(reader, model, info)
     if (info%failed()) return
     deck%paths = reader%deck%paths
+    model%conditions%paths = deck%paths
     call make_links(model, deck, refused)
     if (.not. allocated(refused%reason) .and. refused%status == 0) call make_cases(model%conditions, deck, refused)
     if (refused%status /= 0) then
@@ -81,7 +82,8 @@ contains
     end do
     do k = 1, n
       if (info%failed() .or. allocated(reason)) exit
-      call read_support_list(ranges(k), model%conditions%nodes, model%conditions%supports, reason, status)
+      call read_support_list(ranges(k), model%conditions%nodes, model%conditions%scalar_points, &
+                             model%conditions%supports, reason, status)
       if (allocated(reason)) card = ranges(k)
     end do
     if (info%failed() .or. .not. allocated(reason)) return
@@ -117,6 +119,8 @@ contains
     select case (card%name)
     case ('GRID')
       call read_node(card, model%conditions%nodes, reason, status)
+    case ('SPOINT')
+      call read_scalar_points(card, model%conditions%scalar_points, reason, status)
     case ('CGAP')
       call read_gap(card, model%gaps, reason, status)
     case ('PGAP')
@@ -138,7 +142,8 @@ contains
     case ('SPCD')
       call read_support(card, model%conditions%displacements, reason, status)
     case ('SPC1')
-      call read_support_list(card, model%conditions%nodes, model%conditions%supports, reason, status)
+      call read_support_list(card, model%conditions%nodes, model%conditions%scalar_points, &
+                             model%conditions%supports, reason, status)
     case ('SPCADD')
       call read_support_sum(card, model%conditions%support_sums, reason, status)
     case ('GRDSET')
@@ -167,7 +172,8 @@ contains
     if (refused%status /= 0) return
     n = 0
     do k = 1, model%gaps%count
-      call find_positions(model%conditions%nodes, model%gaps%whole(3:5, k), position, refused%reason)
+      call find_positions(model%conditions%nodes, model%gaps%whole(3:4, k), &
+                          needs_positions(k, model%gaps, model%gap_properties), position, refused%reason)
       if (.not. allocated(refused%reason)) call make_gap(k, model%gaps, model%gap_properties, model%systems, position, &
                                                          links(n + 1), refused%reason)
       call finish_link('CGAP', model%gaps%whole(1, k), model%gaps%place(:, k), .true., n, links, refused)
@@ -176,7 +182,8 @@ contains
     do k = 1, model%springs%count
       call find_table(k, model%springs, model%spring_properties, table, refused%reason)
       one_way = table > 0
-      if (one_way) call find_positions(model%conditions%nodes, model%springs%whole(3:5, k), position, refused%reason)
+      if (one_way) call find_positions(model%conditions%nodes, model%springs%whole(3:4, k), &
+                                       model%springs%whole(5, k) < 0, position, refused%reason)
       if (one_way .and. .not. allocated(refused%reason)) &
         call make_spring(k, table, model%springs, model%tables, model%systems, position, links(n + 1), refused%reason)
       call finish_link('CBUSH1D', model%springs%whole(1, k), model%springs%place(:, k), one_way, n, links, refused)
@@ -204,11 +211,12 @@ contains
     end if
   end subroutine finish_link
 
-  !> Positions of nodes a and b of an element, `numbers` (a, b, coordinate system); the ground is at the origin. Those
-  !> of another system are refused where the direction depends on them, and so are displacements in another system.
-  pure subroutine find_positions(nodes, numbers, position, reason)
+  !> Positions of nodes a and b of an element, `numbers`; the ground is at the origin. Those in another system than the
+  !> basic one are refused where they are `needed`, and so are displacements in another system.
+  pure subroutine find_positions(nodes, numbers, needed, position, reason)
     type(number_records), intent(in) :: nodes
-    integer, intent(in) :: numbers(3)
+    integer, intent(in) :: numbers(2)
+    logical, intent(in) :: needed
     real(dp), intent(out) :: position(3, 2)
     character(len=:), allocatable, intent(inout) :: reason
     integer :: i, k
@@ -220,7 +228,7 @@ contains
       k = nodes%find(numbers(i))
       if (k == 0) then
         reason = 'the deck has no GRID '//text(numbers(i))
-      else if (nodes%whole(2, k) /= 0 .and. numbers(3) < 0) then
+      else if (nodes%whole(2, k) /= 0 .and. needed) then
         reason = 'GRID '//text(numbers(i))//' has the coordinate system CP = '//text(nodes%whole(2, k)) &
           //': positions are read in the basic system, 0'
       else if (nodes%whole(3, k) /= 0) then

@@ -10,8 +10,8 @@ module fuge_bulk_links
   implicit none
   private
 
-  public :: find_table, make_gap, make_spring, read_gap, read_gap_property, read_spring, read_spring_property, &
-    read_system, read_table
+  public :: find_table, make_gap, make_spring, needs_positions, read_gap, read_gap_property, read_spring, &
+    read_spring_property, read_system, read_table
 
   !> Fraction of the stiffness of a closed gap that may remain in an open one: it stands for none.
   real(dp), parameter :: OPEN_STIFFNESS = 1.0e-6_dp
@@ -184,6 +184,8 @@ contains
     call card%whole(1, 'number of the table', 1, number, reason)
     if (.not. allocated(reason) .and. (card%word(2) == 'LOG' .or. card%word(3) == 'LOG')) &
       reason = 'a logarithmic axis is not read'
+    if (.not. allocated(reason) .and. card%has(4) .and. card%word(4) /= '0') &
+      reason = 'field 4 is '//trim(card%word(4))//': tables go on as their last lines beyond their ends, with 0 there'
     do k = LINE_FIELDS + 1, card%count - 1, 2
       if (allocated(reason) .or. card%word(k) == 'ENDT' .or. card%word(k + 1) == 'ENDT') exit
       if (card%word(k) == 'SKIP' .or. card%word(k + 1) == 'SKIP' .or. .not. (card%has(k) .or. card%has(k + 1))) cycle
@@ -235,6 +237,18 @@ contains
       if (system == FLIPPED) direction = -direction
     end if
   end subroutine find_direction
+
+  !> Does the direction of gap `k`, or its gap, depend on the positions of its nodes?
+  pure function needs_positions(k, gaps, properties)
+    integer, intent(in) :: k
+    type(number_records), intent(in) :: gaps, properties
+    logical :: needs_positions
+    integer :: p
+
+    needs_positions = gaps%whole(5, k) < 0
+    p = properties%find(gaps%whole(2, k))
+    if (p > 0) needs_positions = needs_positions .or. properties%whole(2, p) == DISTANCE_OF_NODES
+  end function needs_positions
 
   !> The link of gap `k`, whose nodes are at `position` (3, 2).
   pure subroutine make_gap(k, gaps, properties, systems, position, link, reason)

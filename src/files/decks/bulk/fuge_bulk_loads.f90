@@ -8,8 +8,8 @@ module fuge_bulk_loads
   implicit none
   private
 
-  public :: is_unread_load, read_force, read_load_sum, read_node, read_support, read_support_list, read_support_sum, &
-    read_unread_load
+  public :: is_unread_load, read_force, read_load_sum, read_node, read_scalar_points, read_support, read_support_list, &
+    read_support_sum, read_unread_load
 
   !> Loads that are not read; a subcase may not select them.
   character(len=8), parameter, public :: UNREAD_LOADS(23) = [character(len=8) :: 'PLOAD', 'PLOAD1', 'PLOAD2', &
@@ -39,6 +39,27 @@ contains
     call nodes%append_named(card%place, numbers, position, is_new, status)
     if (.not. is_new .and. status == 0) reason = 'the node is defined a second time'
   end subroutine read_node
+
+  !> SPOINT: a record of the first and the last number of each range of scalar points.
+  pure subroutine read_scalar_points(card, points, reason, status)
+    type(bulk_card), intent(in) :: card
+    type(number_records), intent(inout) :: points
+    character(len=:), allocatable, intent(inout) :: reason
+    integer, intent(inout) :: status
+    integer :: k, range(2)
+
+    if (card%word(2) == 'THRU') then
+      call card%whole(1, 'ID1', 1, range(1), reason)
+      call card%whole(3, 'ID2', 1, range(2), reason)
+      if (.not. allocated(reason)) call points%append(card%place, range, [real(dp) ::], status)
+      return
+    end if
+    do k = 1, card%count
+      if (.not. card%has(k)) cycle
+      call card%whole(k, 'scalar point', 1, range(1), reason)
+      if (.not. allocated(reason)) call points%append(card%place, [range(1), range(1)], [real(dp) ::], status)
+    end do
+  end subroutine read_scalar_points
 
   !> FORCE and MOMENT: set, node and first direction, 1 or 4; the components.
   pure subroutine read_force(card, forces, reason, status)
@@ -127,14 +148,15 @@ contains
     end do
   end subroutine read_directions
 
-  !> SPC1: the same for a list of nodes. From THRU on those that exist count, so that `nodes` have to be known.
-  pure subroutine read_support_list(card, nodes, supports, reason, status)
+  !> SPC1: the same for a list of nodes. Of a range with THRU those that exist count, so that `nodes` have to be known,
+  !> or the ranges of scalar `points`, which have no directions.
+  pure subroutine read_support_list(card, nodes, points, supports, reason, status)
     type(bulk_card), intent(in) :: card
-    type(number_records), intent(in) :: nodes
+    type(number_records), intent(in) :: nodes, points
     type(number_records), intent(inout) :: supports
     character(len=:), allocatable, intent(inout) :: reason
     integer, intent(inout) :: status
-    integer :: directions, first, k, last, set
+    integer :: directions, first, k, last, point, set
 
     call card%whole(1, 'number of the set', 1, set, reason)
     call read_directions(card%word(2), directions, reason)
@@ -142,7 +164,12 @@ contains
       call card%whole(3, 'G1', 1, first, reason)
       call card%whole(5, 'G2', 1, last, reason)
       if (allocated(reason)) return
-      do k = 1, nodes%count
+      do k = 1, merge(points%count, 0, directions == 0)
+        do point = max(first, points%whole(1, k)), min(last, points%whole(2, k))
+          call supports%append(card%place, [set, point, directions], [0.0_dp], status)
+        end do
+      end do
+      do k = 1, merge(nodes%count, 0, directions > 0)
         if (nodes%whole(1, k) >= first .and. nodes%whole(1, k) <= last) &
           call supports%append(card%place, [set, nodes%whole(1, k), directions], [0.0_dp], status)
       end do

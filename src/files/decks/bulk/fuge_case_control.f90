@@ -1,6 +1,7 @@
 !> The case control section of a Nastran deck, the lines before BEGIN BULK: which loads and supports each subcase
 !> selects.
 module fuge_case_control
+  use fuge_bulk_cards, only: next_bulk_line
   use fuge_entry_numbers, only: read_label
   use fuge_input_deck, only: input_deck, upper_case
   use fuge_kinds, only: dp
@@ -14,8 +15,8 @@ module fuge_case_control
   public :: read_case_control
 
   !> Commands without which the answer would be another one, and which are not read.
-  character(len=12), parameter :: REFUSED(11) = [character(len=12) :: 'SUBCOM', 'SUBSEQ', 'SYM', 'SYMCOM', 'SYMSEQ', &
-    'REPCASE', 'STEP', 'TEMPERATURE', 'TEMP', 'DEFORM', 'LOADSET']
+  character(len=12), parameter :: REFUSED(14) = [character(len=12) :: 'SUBCOM', 'SUBSEQ', 'SYM', 'SYMCOM', 'SYMSEQ', &
+    'REPCASE', 'STEP', 'TEMPERATURE', 'TEMP', 'DEFORM', 'LOADSET', 'BOLTLD', 'PRETENSION', 'P2G']
   !> Longest word of a command, and number, that are looked at.
   integer, parameter :: WORD_LENGTH = 32
 
@@ -34,21 +35,23 @@ contains
   !> Read the subcases: their numbers, load sets and sets of supports (0: none) are `whole` of each record; that of
   !> subcase 0 is what all of them select. A deck without BEGIN BULK is bulk data alone, and none of it is read.
   !> Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
-  pure subroutine read_case_control(deck, subcases, info)
+  subroutine read_case_control(deck, subcases, info)
     type(input_deck), intent(inout) :: deck
     type(number_records), intent(inout) :: subcases
     type(fuge_info), intent(inout) :: info
     type(selection) :: state
     character(len=:), allocatable :: reason
+    integer :: length
     logical :: bulk, exists
 
-    call find_bulk(deck, exists)
-    if (.not. exists) return
+    call find_bulk(deck, exists, info)
+    if (info%failed() .or. .not. exists) return
     do
-      call deck%file(1)%advance(exists)
-      if (.not. exists) exit
-      call read_command(deck%file(1)%content(deck%file(1)%first:deck%file(1)%last), deck%file(1)%line, state, &
-                        subcases, bulk, reason)
+      call next_bulk_line(deck, exists, length, info)
+      if (info%failed() .or. .not. exists) exit
+      associate (file => deck%file(deck%depth))
+        call read_command(file%content(file%first:file%first + length - 1), deck%place(), state, subcases, bulk, reason)
+      end associate
       if (allocated(reason)) call deck%refuse(reason, info)
       if (info%failed() .or. bulk) exit
     end do
@@ -60,17 +63,22 @@ contains
     if (state%status /= 0) call report(info, FUGE_ERR_MEMORY, deck%file(1)%name//': no memory for the subcases')
   end subroutine read_case_control
 
-  !> Does the deck have a line BEGIN BULK? It is at its beginning again.
-  pure subroutine find_bulk(deck, exists)
+  !> Does the deck, or a file that it includes, have a line BEGIN BULK? The deck is at its beginning again.
+  subroutine find_bulk(deck, exists, info)
     type(input_deck), intent(inout) :: deck
     logical, intent(out) :: exists
+    type(fuge_info), intent(inout) :: info
+    integer :: length
 
     do
-      call deck%file(1)%advance(exists)
+      call next_bulk_line(deck, exists, length, info)
+      if (info%failed()) return
       if (.not. exists) exit
-      if (begins_bulk(deck%file(1)%content(deck%file(1)%first:deck%file(1)%last))) exit
+      associate (file => deck%file(deck%depth))
+        if (begins_bulk(file%content(file%first:file%first + length - 1))) exit
+      end associate
     end do
-    call deck%file(1)%rewind()
+    call deck%rewind()
   end subroutine find_bulk
 
   pure function begins_bulk(line)
@@ -83,9 +91,9 @@ contains
   end function begins_bulk
 
   !> One line; `bulk` is true of BEGIN BULK.
-  pure subroutine read_command(line, number, state, subcases, bulk, reason)
+  pure subroutine read_command(line, place, state, subcases, bulk, reason)
     character(len=*), intent(in) :: line
-    integer, intent(in) :: number
+    integer, intent(in) :: place(2)
     type(selection), intent(inout) :: state
     type(number_records), intent(inout) :: subcases
     logical, intent(out) :: bulk
@@ -99,7 +107,7 @@ contains
     case ('SUBCASE')
       if (state%inside) call keep_subcase(state, subcases, reason)
       state%inside = .true.
-      state%place(2) = number
+      state%place = place
       state%subcase(2:) = state%common
       call read_label(trim(value), 'subcase', 1, huge(1), state%subcase(1), reason)
     case ('LOAD')
@@ -114,7 +122,7 @@ contains
     end select
   end subroutine read_command
 
-  !> The command of a line in upper case, and what stands behind it and behind =. Comments begin with $.
+  !> The command of a line in upper case, and what stands behind it and behind =.
   pure subroutine split_command(line, command, value)
     character(len=*), intent(in) :: line
     character(len=*), intent(out) :: command, value
@@ -122,7 +130,7 @@ contains
 
     command = ''
     value = ''
-    finish = index(line//'$', '$') - 1
+    finish = len(line)
     do while (finish > 0)
       if (after_blanks(line(finish:finish), 1) == 1) exit
       finish = finish - 1

@@ -1,6 +1,5 @@
 !> Tables of force over elongation that are one-way: no force on one side, a line from there, and perhaps a limit.
 module fuge_force_tables
-  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   implicit none
@@ -18,8 +17,8 @@ module fuge_force_tables
     !> Elongation, or shortening, at which the force begins.
     real(dp) :: gap = 0.0_dp
     real(dp) :: compliance = 0.0_dp
-    !> Infinity: none.
-    real(dp) :: limit = 0.0_dp
+    !> huge(1.0_dp): none.
+    real(dp) :: limit = huge(1.0_dp)
   end type one_way_law
 
 contains
@@ -62,7 +61,6 @@ contains
     n = size(x)
     largest = maxval(force)
     first = findloc(force > 0.0_dp, .true., dim=1)
-    law%limit = ieee_value(1.0_dp, ieee_positive_inf)
     if (first < 3 .or. any(force < 0.0_dp)) then
       reason = 'a one-way spring has no force at two points or more on one side, and no change of sign'
       return

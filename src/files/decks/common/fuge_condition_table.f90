@@ -1,6 +1,6 @@
 !> Forces or supports of a load case while they are collected: one value for each degree of freedom.
 module fuge_condition_table
-  use fuge_deck_type, only: fuge_deck_value
+  use fuge_deck_type, only: fuge_deck_value, place_text
   use fuge_growing_arrays, only: make_room
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
@@ -70,13 +70,15 @@ contains
     self%origin(:, row) = origin
   end subroutine add
 
-  !> Prescribe a displacement; `reason` if the same step prescribes another one.
-  pure subroutine hold(self, node, direction, value, origin, reason, status)
+  !> Prescribe a displacement; `reason` if the same step prescribes another one, with its place in one of the `paths`.
+  pure subroutine hold(self, node, direction, value, origin, paths, reason, status)
     class(condition_table), intent(inout) :: self
     integer, intent(in) :: node, direction, origin(3)
     real(dp), intent(in) :: value
+    character(len=*), intent(in) :: paths
     character(len=:), allocatable, intent(inout) :: reason
     integer, intent(inout) :: status
+    character(len=:), allocatable :: place
     integer :: row
     logical :: is_new
 
@@ -84,8 +86,9 @@ contains
     call self%place_of(node, direction, row, is_new, status)
     if (status /= 0) return
     if (.not. is_new .and. self%origin(3, row) == origin(3) .and. abs(self%value(row) - value) > 0.0_dp) then
+      call place_text(paths, self%origin(1, row), self%origin(2, row), place)
       reason = 'node '//text(node)//' is displaced by '//text(value)//' in direction '//text(direction) &
-        //', but by '//text(self%value(row))//' on line '//text(self%origin(2, row))
+        //', but by '//text(self%value(row))//' in '//place
       return
     end if
     self%value(row) = value

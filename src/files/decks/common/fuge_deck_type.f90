@@ -1,10 +1,11 @@
 !> What the decks of finite element programs say beside the stiffness matrix: one-way links between nodes, and load
 !> cases with their supports.
 module fuge_deck_type
-  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
+  use fuge_constants, only: NAME_LENGTH
   use fuge_kinds, only: dp
-  use fuge_mesh_type, only: move_text, NAME_LENGTH
+  use fuge_mesh_type, only: move_text
   use fuge_number_text, only: text
+  use fuge_path_list, only: count_paths, get_path
   use fuge_text_reader, only: quoted_path
   implicit none
   private
@@ -25,12 +26,12 @@ module fuge_deck_type
     real(dp) :: direction(3) = 0.0_dp
     !> Gap without load, length; negative: an interference.
     real(dp) :: gap = 0.0_dp
-    !> Distance of a second stop, length; infinity: none.
-    real(dp) :: play = 0.0_dp
+    !> Distance of a second stop, length; huge(1.0_dp) or infinity: none.
+    real(dp) :: play = huge(1.0_dp)
     !> Of the link itself, length per force; 0: rigid.
     real(dp) :: compliance = 0.0_dp
-    !> Limit of the force; infinity: none.
-    real(dp) :: limit = 0.0_dp
+    !> Limit of the force; huge(1.0_dp) or infinity: none.
+    real(dp) :: limit = huge(1.0_dp)
     !> Its line, and the number of its file among `paths` of the deck.
     integer :: line = 0, file = 0
   end type fuge_deck_link
@@ -70,6 +71,8 @@ module fuge_deck_type
   contains
     procedure :: link_count
     procedure :: case_count
+    procedure :: file_count
+    procedure :: get_file
   end type fuge_deck
 
 contains
@@ -92,6 +95,25 @@ contains
     if (allocated(self%cases)) n = size(self%cases)
   end function case_count
 
+  !> Number of files that have been read.
+  pure function file_count(self) result(n)
+    class(fuge_deck), intent(in) :: self
+    integer :: n
+
+    n = 0
+    if (allocated(self%paths)) n = count_paths(self%paths)
+  end function file_count
+
+  !> Path of file k, from 1 to file_count().
+  pure subroutine get_file(self, k, path)
+    class(fuge_deck), intent(in) :: self
+    integer, intent(in) :: k
+    character(len=:), allocatable, intent(out) :: path
+
+    path = ''
+    if (allocated(self%paths)) call get_path(self%paths, k, path)
+  end subroutine get_file
+
   !> A rigid link between two nodes, with neither a second stop nor a limit.
   pure function new_link(name, node_a, node_b, direction, gap) result(link)
     character(len=*), intent(in) :: name
@@ -104,8 +126,6 @@ contains
     link%node_b = node_b
     link%direction = direction
     link%gap = gap
-    link%play = ieee_value(1.0_dp, ieee_positive_inf)
-    link%limit = link%play
   end function new_link
 
   !> File and line for a message, "model.bdf", line 12; empty without a line.
@@ -113,15 +133,11 @@ contains
     character(len=*), intent(in) :: paths
     integer, intent(in) :: file, line
     character(len=:), allocatable, intent(out) :: place
-    integer :: begin, k
 
     place = ''
     if (line < 1) return
-    begin = 1
-    do k = 2, file
-      begin = begin + index(paths(begin:), achar(0))
-    end do
-    place = quoted_path(paths(begin:begin + index(paths(begin:), achar(0)) - 2))//', line '//text(line)
+    call get_path(paths, file, place)
+    place = quoted_path(place)//', line '//text(line)
   end subroutine place_text
 
   !> Move a deck; nothing is copied.

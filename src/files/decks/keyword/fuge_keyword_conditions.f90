@@ -26,8 +26,8 @@ module fuge_keyword_conditions
 contains
 
   !> *BOUNDARY: node or set, first and last direction, displacement; or node or set, and the name of a support.
-  subroutine read_boundary_line(line, mesh, numbers, origin, held, reason, status)
-    character(len=*), intent(in) :: line
+  subroutine read_boundary_line(line, mesh, numbers, origin, paths, held, reason, status)
+    character(len=*), intent(in) :: line, paths
     type(fuge_mesh), intent(in) :: mesh
     type(row_table), intent(in) :: numbers
     integer, intent(in) :: origin(3)
@@ -62,13 +62,14 @@ contains
     end if
     if (k <= len(line) .and. .not. allocated(reason)) reason = 'more columns than node, first and last direction, ' &
       //'displacement'
-    if (.not. allocated(reason)) call hold_nodes(nodes, digits, value, origin, held, reason, status)
+    if (.not. allocated(reason)) call hold_nodes(nodes, digits, value, origin, paths, held, reason, status)
   end subroutine read_boundary_line
 
   !> Hold nodes in directions such as 123.
-  pure subroutine hold_nodes(nodes, directions, value, origin, held, reason, status)
+  pure subroutine hold_nodes(nodes, directions, value, origin, paths, held, reason, status)
     integer, intent(in) :: nodes(:), directions, origin(3)
     real(dp), intent(in) :: value
+    character(len=*), intent(in) :: paths
     type(condition_table), intent(inout) :: held
     character(len=:), allocatable, intent(inout) :: reason
     integer, intent(inout) :: status
@@ -77,7 +78,7 @@ contains
     do i = 1, size(nodes)
       digits = directions
       do while (digits > 0 .and. .not. allocated(reason))
-        call held%hold(nodes(i), mod(digits, 10), value, origin, reason, status)
+        call held%hold(nodes(i), mod(digits, 10), value, origin, paths, reason, status)
         digits = digits/10
       end do
     end do

@@ -40,8 +40,14 @@ module fuge_keyword_deck
     !> Number of the step, 0 in the model; its data may be those of a static step.
     integer :: step = 0
     logical :: in_step = .false., static = .false., other_procedure = .false.
-    !> Keywords of supports and loads of this step, of which only the first one can begin anew.
-    logical :: has_boundary = .false., has_loads = .false.
+    !> OP of the first *BOUNDARY and of the first *CLOAD of this step; blank before them.
+    character(len=3) :: boundary_op = '', load_op = ''
+    !> What this step, or an earlier one that is no load case, has that is not read: an error of the next load case.
+    type(fuge_info) :: unread
+    !> All three as they were before a step with PERTURBATION, after which they are so again.
+    logical :: perturbation = .false.
+    type(condition_table) :: held_before, forces_before
+    type(fuge_info) :: unread_before
     type(condition_table) :: held, forces
     !> Elements of the *GAP, indices in the mesh, and which elements have one.
     integer, allocatable :: elements(:)
@@ -134,7 +140,7 @@ contains
       if (info%failed() .or. state%status /= 0) return
       if (line_kind == LINE_END) exit
     end do
-    call end_step(deck, state)
+    call end_step(deck, state, info)
     ! Without a step the supports are still to be kept.
     if (state%step == 0) call state%held%copy_to(deck%supports, state%status)
   end subroutine read_lines
@@ -149,14 +155,14 @@ contains
     integer :: origin(3)
 
     associate (file => input%file(input%depth))
-      origin = [file_number(input), file%line, state%step]
+      origin = [input%place(), state%step]
       select case (state%content)
       case (DATA_GAP)
         call make_links(file%content(file%first:file%last), mesh, origin, deck, state, reason)
         state%content = DATA_SKIPPED
       case (DATA_BOUNDARY)
-        call read_boundary_line(file%content(file%first:file%last), mesh, state%numbers, origin, state%held, reason, &
-                                state%status)
+        call read_boundary_line(file%content(file%first:file%last), mesh, state%numbers, origin, input%paths, &
+                                state%held, reason, state%status)
       case (DATA_LOADS)
         call read_load_line(file%content(file%first:file%last), mesh, state%numbers, origin, state%forces, reason, &
                             state%status)
@@ -164,23 +170,6 @@ contains
     end associate
     if (allocated(reason)) call input%refuse('*'//trim(input%keyword)//': '//reason, info)
   end subroutine read_data
-
-  !> The number of the present file among the paths.
-  pure function file_number(input) result(number)
-    type(input_deck), intent(in) :: input
-    integer :: number
-    integer :: begin, length
-
-    number = 1
-    begin = 1
-    do while (begin <= len(input%paths))
-      length = index(input%paths(begin:), achar(0)) - 1
-      if (quoted_path(input%paths(begin:begin + length - 1)) == input%file(input%depth)%name) return
-      number = number + 1
-      begin = begin + length + 1
-    end do
-    number = 1
-  end function file_number
 
   !> The links of the elements of a *GAP.
   pure subroutine make_links(line, mesh, origin, deck, state, reason)
@@ -217,7 +206,7 @@ contains
     end do
   end subroutine make_links
 
-  !> A keyword: what are the data lines under it?
+  !> Act on a keyword line, and set what its data lines are.
   subroutine begin_block(input, mesh, deck, state, info)
     type(input_deck), intent(inout) :: input
     type(fuge_mesh), intent(in) :: mesh
@@ -237,7 +226,7 @@ contains
     case ('STEP')
       call begin_step(input, deck, state, info)
     case ('ENDSTEP')
-      call end_step(deck, state)
+      call end_step(deck, state, info)
     case ('STATIC')
       state%static = .true.
     case ('FREQUENCY', 'BUCKLE', 'DYNAMIC', 'MODALDYNAMIC', 'STEADYSTATEDYNAMICS', 'HEATTRANSFER', 'COMPLEXFREQUENCY', &
@@ -248,11 +237,13 @@ contains
       if (info%failed()) call refuse_set(input, info)
       state%content = DATA_GAP
     case ('BOUNDARY')
-      call begin_conditions(input, state%has_boundary, state%held, info)
+      call begin_conditions(input, state%boundary_op, state%held, state%unread, info)
+      ! Supports of the model are those of all load cases.
+      if (state%unread%failed() .and. .not. (state%in_step .or. info%failed())) info = state%unread
       state%content = DATA_BOUNDARY
     case ('CLOAD')
       if (.not. state%in_step) call input%refuse('*CLOAD is needed in a *STEP', info)
-      call begin_conditions(input, state%has_loads, state%forces, info)
+      call begin_conditions(input, state%load_op, state%forces, state%unread, info)
       state%content = DATA_LOADS
     case ('SPRING')
       if (input%has('NONLINEAR')) call input%refuse('nonlinear springs are not read: give one-way springs as GAPUNI ' &
@@ -269,7 +260,8 @@ contains
         call input%refuse('*'//trim(input%keyword)//' is not read here: of contact the gap elements are, and each ' &
                           //'*STEP is a load case', info)
       else if (state%in_step .and. any(word == UNREAD_LOADS)) then
-        call input%refuse('*'//trim(input%keyword)//' is not read: give its forces at nodes by *CLOAD', info)
+        call keep_refusal(input, '*'//trim(input%keyword)//' is not read: give its forces at nodes by *CLOAD', &
+                          state%unread)
       end if
     end select
   end subroutine begin_block
@@ -295,56 +287,79 @@ contains
     type(deck_state), intent(inout) :: state
     type(fuge_info), intent(inout) :: info
 
-    call end_step(deck, state)
+    call end_step(deck, state, info)
     if (state%step == 0) call state%held%copy_to(deck%supports, state%status)
-    if (input%has('PERTURBATION')) call input%refuse('a *STEP with PERTURBATION is not read: contact depends on the ' &
-      //'whole load', info)
+    state%perturbation = input%has('PERTURBATION')
+    if (state%perturbation) then
+      state%held_before = state%held
+      state%forces_before = state%forces
+      state%unread_before = state%unread
+      call keep_refusal(input, 'a *STEP with PERTURBATION is not read: contact depends on the whole load', state%unread)
+    end if
     state%step = state%step + 1
     state%in_step = .true.
     state%static = .false.
     state%other_procedure = .false.
-    state%has_boundary = .false.
-    state%has_loads = .false.
+    state%boundary_op = ''
+    state%load_op = ''
   end subroutine begin_step
 
-  !> Supports or loads of a keyword: with OP=NEW those of earlier steps end.
-  pure subroutine begin_conditions(input, has_some, conditions, info)
+  !> Keep the first reason why the step cannot be a load case, with its line: its procedure may follow.
+  pure subroutine keep_refusal(input, reason, unread)
     type(input_deck), intent(in) :: input
-    logical, intent(inout) :: has_some
+    character(len=*), intent(in) :: reason
+    type(fuge_info), intent(inout) :: unread
+
+    if (.not. unread%failed()) call input%refuse(reason, unread)
+  end subroutine keep_refusal
+
+  !> Supports or loads of a keyword: with OP=NEW those of earlier steps end, if it is that of the first one in the step;
+  !> Abaqus wants it on all of them.
+  pure subroutine begin_conditions(input, first_op, conditions, unread, info)
+    type(input_deck), intent(in) :: input
+    character(len=3), intent(inout) :: first_op
     type(condition_table), intent(inout) :: conditions
-    type(fuge_info), intent(inout) :: info
+    type(fuge_info), intent(inout) :: unread, info
     type(condition_table) :: none
     character(len=WORD_LENGTH) :: op
     integer :: k
 
     op = upper_case(input%parameter('OP'))
     do k = 1, size(UNREAD_PARAMETERS)
-      if (.not. input%has(trim(UNREAD_PARAMETERS(k))) .or. info%failed()) cycle
+      if (.not. input%has(trim(UNREAD_PARAMETERS(k)))) cycle
       if (UNREAD_PARAMETERS(k) == 'TYPE' .and. upper_case(input%parameter('TYPE')) == 'DISPLACEMENT') cycle
-      call input%refuse('*'//trim(input%keyword)//': '//trim(UNREAD_PARAMETERS(k))//' is not read: write the values ' &
-                        //'at the end of the step', info)
+      call keep_refusal(input, '*'//trim(input%keyword)//': '//trim(UNREAD_PARAMETERS(k))//' is not read: write the ' &
+                        //'values at the end of the step', unread)
     end do
-    if (info%failed()) return
-    if (op == 'NEW' .and. has_some) then
+    if (op == 'NEW' .and. first_op == 'MOD') then
       call input%refuse('*'//trim(input%keyword)//': OP=NEW belongs to the first *'//trim(input%keyword) &
                         //' of the step', info)
-    else if (op == 'NEW') then
+    else if (op == 'NEW' .and. first_op == '') then
       conditions = none
-    else if (op /= '' .and. op /= 'MOD') then
+    else if (all(op /= [character(len=3) :: '', 'NEW', 'MOD'])) then
       call input%refuse('*'//trim(input%keyword)//': OP='//trim(op)//' is not read, only NEW and MOD', info)
     end if
-    has_some = .true.
+    if (first_op == '') first_op = merge('NEW', 'MOD', op == 'NEW')
   end subroutine begin_conditions
 
-  !> Keep a static step as a load case; other procedures are none.
-  pure subroutine end_step(deck, state)
+  !> Keep a static step as a load case, or report what it has that is not read; other procedures are none.
+  pure subroutine end_step(deck, state, info)
     type(fuge_deck), intent(inout) :: deck
     type(deck_state), intent(inout) :: state
+    type(fuge_info), intent(inout) :: info
     type(fuge_deck_case), allocatable :: longer(:)
 
-    if (.not. state%in_step) return
+    if (info%failed() .or. .not. state%in_step) return
     state%in_step = .false.
-    if (state%other_procedure .and. .not. state%static) return
+    if (state%other_procedure .and. .not. state%static) then
+      if (.not. state%perturbation) return
+      state%held = state%held_before
+      state%forces = state%forces_before
+      state%unread = state%unread_before
+      return
+    end if
+    if (state%unread%failed()) info = state%unread
+    if (info%failed()) return
     if (state%cases == size(deck%cases) .and. state%status == 0) then
       allocate (longer(2*state%cases), stat=state%status)
       if (state%status /= 0) return

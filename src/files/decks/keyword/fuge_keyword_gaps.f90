@@ -3,7 +3,7 @@ module fuge_keyword_gaps
   use fuge_deck_type, only: fuge_deck_link, new_link
   use fuge_entry_numbers, only: read_value
   use fuge_kinds, only: dp
-  use fuge_link_direction, only: direction_between
+  use fuge_link_direction, only: direction_between, COINCIDENT
   use fuge_number_text, only: text
   use fuge_text_columns, only: begin_columns, next_column
   implicit none
@@ -91,9 +91,13 @@ contains
       end if
       distance = position(:, 2) - position(:, 1)
       distance = distance - dot_product(distance, axis)*axis
-      call direction_between([0.0_dp, 0.0_dp, 0.0_dp], distance, direction, reason)
-      if (allocated(reason)) reason = 'its nodes coincide, or are on one line along its axis, so that it has no ' &
-        //'direction at first: use GAPUNI'
+      ! What the projection leaves may be rounding of the positions.
+      if (norm2(distance) > COINCIDENT*maxval(abs(position))) then
+        direction = distance/norm2(distance)
+      else
+        reason = 'its nodes coincide, or are on one line along its axis, so that it has no direction at first: use ' &
+          //'GAPUNI'
+      end if
       if (data%clearance >= 0.0_dp) then
         direction = -direction
         gap = data%clearance - norm2(distance)
