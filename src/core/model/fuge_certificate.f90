@@ -100,7 +100,7 @@ contains
     type(fuge_violation), intent(out) :: violation
     type(fuge_info), intent(inout) :: info
     real(dp), intent(in), optional :: enough
-    real(dp), allocatable :: error(:), magnitude(:), rigid_displacement(:), rigid_magnitude(:), elastic(:)
+    real(dp), allocatable :: lengths(:, :)
     real(dp) :: suspect
     logical, allocatable :: included(:)
     type(point_space) :: space
@@ -117,34 +117,38 @@ contains
     ! Violations stay huge: a product with NaN would show nothing.
     if (.not. space%everywhere(all(ieee_is_finite(solution%force)))) return
     n = operator%points()
-    allocate (error(n), magnitude(n), rigid_displacement(n), rigid_magnitude(n), elastic(n), included(n), stat=stat)
+    allocate (lengths(n, 5), included(n), stat=stat)
     call require_memory(stat, 'the certificate of', n, 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    call displace(operator, problem, solution%force, error, elastic, info)
-    if (info%failed()) return
-    info%energy = elastic_energy(problem, solution, error, operator%datum(), space)
+    ! One array, because small problems spend much of their time on allocations.
+    associate (error => lengths(:, 1), magnitude => lengths(:, 2), rigid_displacement => lengths(:, 3), &
+               rigid_magnitude => lengths(:, 4), elastic => lengths(:, 5))
+      call displace(operator, problem, solution%force, error, elastic, info)
+      if (info%failed()) return
+      info%energy = elastic_energy(problem, solution, error, operator%datum(), space)
 
-    included = .true.
-    if (allocated(problem%excluded)) included = .not. problem%excluded
-    call find_rigid_displacement(problem, solution, operator%datum(), space, rigid_displacement, rigid_magnitude)
-    error = (problem%gap - rigid_displacement) + error - solution%gap
-    if (allocated(problem%modes)) then
-      magnitude = merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included)
-      call add_magnitude_of_bodies(problem%modes, magnitude, space, rigid_magnitude)
-    end if
-    magnitude = abs(problem%gap - rigid_displacement) + elastic
-    violation%equilibrium = equilibrium_violation(problem, solution, space)
-    violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, space)
-    call contact_violations(problem, solution, magnitude, included, space, violation)
-    violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
-                                           .not. allocated(problem%modes), space)
-    if (.not. violation%gap_equation > suspect) return
-    call take_out_rounding(operator, problem, solution%force, elastic, included, magnitude, rigid_magnitude, error, &
-                           info)
-    if (info%failed()) return
-    violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
-                                           .not. allocated(problem%modes), space)
+      included = .true.
+      if (allocated(problem%excluded)) included = .not. problem%excluded
+      call find_rigid_displacement(problem, solution, operator%datum(), space, rigid_displacement, rigid_magnitude)
+      error = (problem%gap - rigid_displacement) + error - solution%gap
+      if (allocated(problem%modes)) then
+        magnitude = merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included)
+        call add_magnitude_of_bodies(problem%modes, magnitude, space, rigid_magnitude)
+      end if
+      magnitude = abs(problem%gap - rigid_displacement) + elastic
+      violation%equilibrium = equilibrium_violation(problem, solution, space)
+      violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, space)
+      call contact_violations(problem, solution, magnitude, included, space, violation)
+      violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
+                                             .not. allocated(problem%modes), space)
+      if (.not. violation%gap_equation > suspect) return
+      call take_out_rounding(operator, problem, solution%force, elastic, included, magnitude, rigid_magnitude, error, &
+                             info)
+      if (info%failed()) return
+      violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
+                                             .not. allocated(problem%modes), space)
+    end associate
   end subroutine find_violation
 
   !> (A + D) f of the `force` (n), less the datum of the operator, and the `terms` of it. Errors: those of the product.
@@ -152,7 +156,7 @@ contains
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:)
-    real(dp), intent(out) :: displacement(:), terms(:)
+    real(dp), intent(out), contiguous :: displacement(:), terms(:)
     type(fuge_info), intent(inout) :: info
 
     call multiply_with_magnitude(operator, force, displacement, terms, info)
@@ -169,18 +173,21 @@ contains
     real(dp), intent(in) :: displacement(:), datum
     type(point_space), intent(in) :: space
     real(dp) :: energy
-    real(dp) :: largest(2), most, scale(2), sums(2), total, unit(2), work, works(2)
+    real(dp) :: inverse(2), largest(2), most, sums(2), total, unit(2), work, works(2)
     integer :: j, k
 
-    largest = [maxval(abs(solution%force)), maxval(abs(displacement))]
+    largest = 0.0_dp
+    do k = 1, size(displacement)
+      largest = max(largest, [abs(solution%force(k)), abs(displacement(k))])
+    end do
     call space%raise(largest)
     ! Powers of two up to the largest ones, so that no product overflows and none of the large ones is lost.
-    unit = 2.0_dp**(max(exponent(largest), minexponent(unit)) - 1)
-    scale = 1.0_dp/unit
+    unit = scale(1.0_dp, max(exponent(largest), minexponent(unit)) - 1)
+    inverse = 1.0_dp/unit
     sums = 0.0_dp
     do k = 1, size(displacement)
       if (.not. abs(solution%force(k)) > 0.0_dp) cycle
-      sums(1) = sums(1) + (solution%force(k)*scale(1))*(displacement(k)*scale(2))
+      sums(1) = sums(1) + (solution%force(k)*inverse(1))*(displacement(k)*inverse(2))
       sums(2) = sums(2) + solution%force(k)
     end do
     call space%add(sums)
@@ -202,8 +209,12 @@ contains
   elemental function bounded_product(a, b) result(product)
     real(dp), intent(in) :: a, b
     real(dp) :: product
+    !> The product of two smaller numbers does not overflow.
+    real(dp), parameter :: SAFE_FACTOR = 2.0_dp**(maxexponent(product)/2 - 1)
 
-    if (.not. (abs(a) > 0.0_dp .and. abs(b) > 0.0_dp)) then
+    if (max(abs(a), abs(b)) < SAFE_FACTOR) then
+      product = a*b
+    else if (.not. (abs(a) > 0.0_dp .and. abs(b) > 0.0_dp)) then
       product = 0.0_dp
     else if (exponent(a) + exponent(b) > maxexponent(product)) then
       product = sign(huge(product), a)*sign(1.0_dp, b)
@@ -602,19 +613,20 @@ contains
     type(fuge_solution), intent(in) :: solution
     logical :: sizes_agree
     type(point_space) :: space
-    integer :: m
+    integer :: m, n
 
     m = problem%mode_count()
+    n = operator%points()
     space = operator%ranks()
-    sizes_agree = (operator%points() > 0 .or. .not. space%is_alone()) .and. size_of(problem%gap) == operator%points() &
-      .and. size_of(solution%force) == operator%points() &
-      .and. size_of(solution%gap) == operator%points() .and. size_of(solution%motion) == m
-    if (allocated(problem%modes)) sizes_agree = sizes_agree .and. size(problem%modes, 1) == operator%points()
-    if (allocated(problem%gap_upper)) sizes_agree = sizes_agree .and. size(problem%gap_upper) == operator%points()
-    if (allocated(problem%excluded)) sizes_agree = sizes_agree .and. size(problem%excluded) == operator%points()
-    if (allocated(problem%compliance)) sizes_agree = sizes_agree .and. size(problem%compliance) == operator%points()
-    if (allocated(problem%limit)) sizes_agree = sizes_agree .and. size(problem%limit) == operator%points()
-    if (allocated(problem%limit_upper)) sizes_agree = sizes_agree .and. size(problem%limit_upper) == operator%points()
+    sizes_agree = (n > 0 .or. .not. space%is_alone()) .and. size_of(problem%gap) == n &
+      .and. size_of(solution%force) == n &
+      .and. size_of(solution%gap) == n .and. size_of(solution%motion) == m
+    if (allocated(problem%modes)) sizes_agree = sizes_agree .and. size(problem%modes, 1) == n
+    if (allocated(problem%gap_upper)) sizes_agree = sizes_agree .and. size(problem%gap_upper) == n
+    if (allocated(problem%excluded)) sizes_agree = sizes_agree .and. size(problem%excluded) == n
+    if (allocated(problem%compliance)) sizes_agree = sizes_agree .and. size(problem%compliance) == n
+    if (allocated(problem%limit)) sizes_agree = sizes_agree .and. size(problem%limit) == n
+    if (allocated(problem%limit_upper)) sizes_agree = sizes_agree .and. size(problem%limit_upper) == n
     if (allocated(problem%motion_stiffness)) sizes_agree = sizes_agree .and. size(problem%motion_stiffness) == m
     if (allocated(problem%prescribed)) then
       sizes_agree = sizes_agree .and. size(problem%prescribed) == m .and. size_of(problem%motion) == m

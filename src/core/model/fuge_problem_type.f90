@@ -382,11 +382,9 @@ contains
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: n
     type(fuge_info), intent(inout) :: info
-    logical :: free(problem%mode_count())
     integer :: j, m
 
     m = problem%mode_count()
-    free = .true.
     if (allocated(problem%modes)) then
       if (size(problem%modes, 1) /= n) then
         call report(info, FUGE_ERR_SIZE, 'modes has '//text(size(problem%modes, 1))//' rows: it needs one for ' &
@@ -404,21 +402,34 @@ contains
                     //text(m))
         return
       end if
-      free = .not. problem%prescribed
       call check_length(problem%motion, m, 'motion', info)
       if (info%failed()) return
       call check_values(merge(problem%motion, 0.0_dp, problem%prescribed), 'prescribed motion', info)
       if (info%failed()) return
     end if
-    if (.not. any(free)) return
+    call check_resultants(problem, m, info)
+  end subroutine check_modes
+
+  !> Check the resultants in the free ones of `m` modes.
+  pure subroutine check_resultants(problem, m, info)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: m
+    type(fuge_info), intent(inout) :: info
+
+    if (m < 1) return
+    if (allocated(problem%prescribed)) then
+      if (all(problem%prescribed)) return
+    end if
     call check_length(problem%resultant, m, 'resultant', info)
     if (info%failed()) return
     if (problem%has_one_load()) then
       call check_load(problem%resultant(1), info)
+    else if (allocated(problem%prescribed)) then
+      call check_values(merge(0.0_dp, problem%resultant, problem%prescribed), 'resultant', info)
     else
-      call check_values(merge(problem%resultant, 0.0_dp, free), 'resultant', info)
+      call check_values(problem%resultant, 'resultant', info)
     end if
-  end subroutine check_modes
+  end subroutine check_resultants
 
   !> Refuse a load that is not finite (FUGE_ERR_NOT_FINITE), negative (FUGE_ERR_NO_EQUILIBRIUM), or so small that
   !> forces below it lose digits (FUGE_ERR_OVERFLOW).
