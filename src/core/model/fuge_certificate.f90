@@ -538,7 +538,8 @@ contains
       loaded = merge(1.0_dp, 0.0_dp, is_loaded(problem, k))
       do j = 1, size(extremes, 2)
         if (.not. abs(problem%modes(k, j)) > 0.0_dp) cycle
-        extremes(:, j) = max(extremes(:, j), [largest, loaded])
+        extremes(1, j) = max(extremes(1, j), largest)
+        extremes(2, j) = max(extremes(2, j), loaded)
       end do
     end do
   end subroutine find_extremes_of_bodies

@@ -10,7 +10,7 @@ contains
   !> The next run of marked elements, `first` to `last`, from `start` on; `first` is beyond the last element if there is
   !> no such run.
   pure subroutine next_run(marked, start, first, last)
-    logical, intent(in), contiguous :: marked(:)
+    logical, intent(in) :: marked(:)
     integer, intent(in) :: start
     integer, intent(out) :: first, last
 
