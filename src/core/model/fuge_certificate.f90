@@ -527,22 +527,34 @@ contains
     real(dp), intent(in) :: force(:)
     type(point_space), intent(in) :: space
     real(dp), intent(out) :: extremes(:, :)
-    real(dp) :: by_mode(size(extremes, 2)), largest, loaded
-    integer :: j, k
+    real(dp) :: by_mode(size(extremes, 2))
+    integer :: i, j
 
     by_mode = largest_by_mode(problem%modes, force, space)
-    extremes(1, :) = -huge(largest)
+    extremes(1, :) = -huge(extremes)
     extremes(2, :) = 0.0_dp
-    do k = 1, size(force)
-      largest = largest_of_body(problem%modes, by_mode, k)
-      loaded = merge(1.0_dp, 0.0_dp, is_loaded(problem, k))
-      do j = 1, size(extremes, 2)
-        if (.not. abs(problem%modes(k, j)) > 0.0_dp) cycle
-        extremes(1, j) = max(extremes(1, j), largest)
-        extremes(2, j) = max(extremes(2, j), loaded)
+    do j = 1, size(extremes, 2)
+      do i = 1, size(extremes, 2)
+        if (.not. move_a_point_together(problem%modes(:, i), problem%modes(:, j))) cycle
+        extremes(1, j) = max(extremes(1, j), by_mode(i))
+        if (is_prescribed(problem, i)) cycle
+        if (abs(problem%resultant(i)) > 0.0_dp) extremes(2, j) = 1.0_dp
       end do
     end do
   end subroutine find_extremes_of_bodies
+
+  !> Is there a point that both modes (n) move? For modes of one body the first point often is.
+  pure function move_a_point_together(one, other) result(together)
+    real(dp), intent(in) :: one(:), other(:)
+    logical :: together
+    integer :: k
+
+    together = .false.
+    do k = 1, size(one)
+      together = abs(one(k)) > 0.0_dp .and. abs(other(k)) > 0.0_dp
+      if (together) return
+    end do
+  end function move_a_point_together
 
   !> The largest force that a spring on a motion stands for, in which motions round together: the part of the resultant
   !> that it carries under `motion` (m), over the largest displacement of its mode.
