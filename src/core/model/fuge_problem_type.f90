@@ -130,7 +130,7 @@ contains
     has_one_load = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded) &
                           .or. self%has_limits())
     if (has_one_load .and. allocated(self%prescribed)) has_one_load = .not. any(self%prescribed)
-    if (has_one_load) has_one_load = self%spring_count() < 1
+    if (has_one_load .and. allocated(self%motion_stiffness)) has_one_load = self%spring_count() < 1
   end function has_one_load
 
   !> Do forces have limits?
