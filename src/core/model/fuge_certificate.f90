@@ -173,23 +173,29 @@ contains
     real(dp), intent(in) :: displacement(:), datum
     type(point_space), intent(in) :: space
     real(dp) :: energy
-    real(dp) :: inverse(2), largest(2), most, sums(2), total, unit(2), work, works(2)
+    real(dp) :: inverse(2), largest(2), sums(2), unit(2), works(2)
+    real(dp) :: largest_force, largest_length, load, most, total, work
     integer :: j, k
 
-    largest = 0.0_dp
+    largest_force = 0.0_dp
+    largest_length = 0.0_dp
     do k = 1, size(displacement)
-      largest = max(largest, [abs(solution%force(k)), abs(displacement(k))])
+      largest_force = max(largest_force, abs(solution%force(k)))
+      largest_length = max(largest_length, abs(displacement(k)))
     end do
+    largest = [largest_force, largest_length]
     call space%raise(largest)
     ! Powers of two up to the largest ones, so that no product overflows and none of the large ones is lost.
     unit = scale(1.0_dp, max(exponent(largest), minexponent(unit)) - 1)
     inverse = 1.0_dp/unit
-    sums = 0.0_dp
+    work = 0.0_dp
+    load = 0.0_dp
     do k = 1, size(displacement)
       if (.not. abs(solution%force(k)) > 0.0_dp) cycle
-      sums(1) = sums(1) + (solution%force(k)*inverse(1))*(displacement(k)*inverse(2))
-      sums(2) = sums(2) + solution%force(k)
+      work = work + (solution%force(k)*inverse(1))*(displacement(k)*inverse(2))
+      load = load + solution%force(k)
     end do
+    sums = [work, load]
     call space%add(sums)
     works = [bounded_product(unit(1)*sums(1), unit(2)), bounded_product(datum*sums(2), sums(2))]
     ! A sum of as many works as these and those of all motions does not overflow.
