@@ -100,7 +100,7 @@ contains
     type(fuge_violation), intent(out) :: violation
     type(fuge_info), intent(inout) :: info
     real(dp), intent(in), optional :: enough
-    real(dp), allocatable :: error(:), magnitude(:), rigid_displacement(:), rigid_magnitude(:), elastic(:)
+    real(dp), allocatable :: lengths(:, :)
     real(dp) :: suspect
     logical, allocatable :: included(:)
     type(point_space) :: space
@@ -117,34 +117,38 @@ contains
     ! Violations stay huge: a product with NaN would show nothing.
     if (.not. space%everywhere(all(ieee_is_finite(solution%force)))) return
     n = operator%points()
-    allocate (error(n), magnitude(n), rigid_displacement(n), rigid_magnitude(n), elastic(n), included(n), stat=stat)
+    allocate (lengths(n, 5), included(n), stat=stat)
     call require_memory(stat, 'the certificate of', n, 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    call displace(operator, problem, solution%force, error, elastic, info)
-    if (info%failed()) return
-    info%energy = elastic_energy(problem, solution, error, operator%datum(), space)
+    ! One array, because small problems spend much of their time on allocations.
+    associate (error => lengths(:, 1), magnitude => lengths(:, 2), rigid_displacement => lengths(:, 3), &
+               rigid_magnitude => lengths(:, 4), elastic => lengths(:, 5))
+      call displace(operator, problem, solution%force, error, elastic, info)
+      if (info%failed()) return
+      info%energy = elastic_energy(problem, solution, error, operator%datum(), space)
 
-    included = .true.
-    if (allocated(problem%excluded)) included = .not. problem%excluded
-    call find_rigid_displacement(problem, solution, operator%datum(), space, rigid_displacement, rigid_magnitude)
-    error = (problem%gap - rigid_displacement) + error - solution%gap
-    if (allocated(problem%modes)) then
-      magnitude = merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included)
-      call add_magnitude_of_bodies(problem%modes, magnitude, space, rigid_magnitude)
-    end if
-    magnitude = abs(problem%gap - rigid_displacement) + elastic
-    violation%equilibrium = equilibrium_violation(problem, solution, space)
-    violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, space)
-    call contact_violations(problem, solution, magnitude, included, space, violation)
-    violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
-                                           .not. allocated(problem%modes), space)
-    if (.not. violation%gap_equation > suspect) return
-    call take_out_rounding(operator, problem, solution%force, elastic, included, magnitude, rigid_magnitude, error, &
-                           info)
-    if (info%failed()) return
-    violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
-                                           .not. allocated(problem%modes), space)
+      included = .true.
+      if (allocated(problem%excluded)) included = .not. problem%excluded
+      call find_rigid_displacement(problem, solution, operator%datum(), space, rigid_displacement, rigid_magnitude)
+      error = (problem%gap - rigid_displacement) + error - solution%gap
+      if (allocated(problem%modes)) then
+        magnitude = merge(abs(problem%gap) + rigid_magnitude, 0.0_dp, included)
+        call add_magnitude_of_bodies(problem%modes, magnitude, space, rigid_magnitude)
+      end if
+      magnitude = abs(problem%gap - rigid_displacement) + elastic
+      violation%equilibrium = equilibrium_violation(problem, solution, space)
+      violation%unresolved = unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, space)
+      call contact_violations(problem, solution, magnitude, included, space, violation)
+      violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
+                                             .not. allocated(problem%modes), space)
+      if (.not. violation%gap_equation > suspect) return
+      call take_out_rounding(operator, problem, solution%force, elastic, included, magnitude, rigid_magnitude, error, &
+                             info)
+      if (info%failed()) return
+      violation%gap_equation = gap_violation(error, magnitude, solution%force, problem%gap, rigid_magnitude, included, &
+                                             .not. allocated(problem%modes), space)
+    end associate
   end subroutine find_violation
 
   !> (A + D) f of the `force` (n), less the datum of the operator, and the `terms` of it. Errors: those of the product.
@@ -152,7 +156,7 @@ contains
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:)
-    real(dp), intent(out) :: displacement(:), terms(:)
+    real(dp), intent(out), contiguous :: displacement(:), terms(:)
     type(fuge_info), intent(inout) :: info
 
     call multiply_with_magnitude(operator, force, displacement, terms, info)
@@ -169,36 +173,54 @@ contains
     real(dp), intent(in) :: displacement(:), datum
     type(point_space), intent(in) :: space
     real(dp) :: energy
-    real(dp) :: largest(2), spring(size(solution%motion)), sums(2), unit(2), works(2 + size(solution%motion))
-    integer :: k
+    real(dp) :: inverse(2), largest(2), sums(2), unit(2), works(2)
+    real(dp) :: largest_force, largest_length, load, most, total, work
+    integer :: j, k
 
-    energy = 0.0_dp
-    largest = [maxval(abs(solution%force)), maxval(abs(displacement))]
+    largest_force = 0.0_dp
+    largest_length = 0.0_dp
+    do k = 1, size(displacement)
+      largest_force = max(largest_force, abs(solution%force(k)))
+      largest_length = max(largest_length, abs(displacement(k)))
+    end do
+    largest = [largest_force, largest_length]
     call space%raise(largest)
     ! Powers of two up to the largest ones, so that no product overflows and none of the large ones is lost.
-    unit = 2.0_dp**(max(exponent(largest), minexponent(unit)) - 1)
-    sums = 0.0_dp
+    unit = scale(1.0_dp, max(exponent(largest), minexponent(unit)) - 1)
+    inverse = 1.0_dp/unit
+    work = 0.0_dp
+    load = 0.0_dp
     do k = 1, size(displacement)
-      sums(1) = sums(1) + (solution%force(k)*(1.0_dp/unit(1)))*(displacement(k)*(1.0_dp/unit(2)))
-      sums(2) = sums(2) + solution%force(k)
+      if (.not. abs(solution%force(k)) > 0.0_dp) cycle
+      work = work + (solution%force(k)*inverse(1))*(displacement(k)*inverse(2))
+      load = load + solution%force(k)
     end do
+    sums = [work, load]
     call space%add(sums)
-    spring = problem%spring_loads(solution%motion)
-    works = [bounded_product(unit(1)*sums(1), unit(2)), bounded_product(datum*sums(2), sums(2)), &
-             bounded_product(spring, solution%motion)]
-    if (any(abs(works) >= huge(energy)/real(size(works), dp))) then
-      energy = huge(energy)
-    else
-      energy = 0.5_dp*sum(works)
-    end if
+    works = [bounded_product(unit(1)*sums(1), unit(2)), bounded_product(datum*sums(2), sums(2))]
+    ! A sum of as many works as these and those of all motions does not overflow.
+    most = huge(energy)/real(2 + size(solution%motion), dp)
+    energy = huge(energy)
+    if (any(abs(works) >= most)) return
+    total = sum(works)
+    do j = 1, size(solution%motion)
+      work = bounded_product(problem%spring_load(j, solution%motion(j)), solution%motion(j))
+      if (abs(work) >= most) return
+      total = total + work
+    end do
+    energy = 0.5_dp*total
   end function elastic_energy
 
   !> The product of two numbers, or the largest number of its sign where it would overflow.
   elemental function bounded_product(a, b) result(product)
     real(dp), intent(in) :: a, b
     real(dp) :: product
+    !> The product of two smaller numbers does not overflow.
+    real(dp), parameter :: SAFE_FACTOR = 2.0_dp**(maxexponent(product)/2 - 1)
 
-    if (.not. (abs(a) > 0.0_dp .and. abs(b) > 0.0_dp)) then
+    if (max(abs(a), abs(b)) < SAFE_FACTOR) then
+      product = a*b
+    else if (.not. (abs(a) > 0.0_dp .and. abs(b) > 0.0_dp)) then
       product = 0.0_dp
     else if (exponent(a) + exponent(b) > maxexponent(product)) then
       product = sign(huge(product), a)*sign(1.0_dp, b)
@@ -395,8 +417,10 @@ contains
       if (allocated(by_mode)) body_force = largest_of_body(problem%modes, by_mode, k)
       if (.not. body_force > 0.0_dp) body_force = largest
       ! Beside the largest force, smaller ones of other bodies may be rounding, but for those that carry a load.
-      rounding = merge(ROUNDINGS*epsilon(rounding)*largest, 0.0_dp, body_force < largest)
-      if (allocated(by_mode)) rounding = merge(0.0_dp, rounding, is_loaded(problem, k))
+      rounding = 0.0_dp
+      if (body_force < largest) then
+        if (.not. is_loaded(problem, k)) rounding = ROUNDINGS*epsilon(rounding)*largest
+      end if
       associate (f => solution%force(k), c => solution%gap(k))
         if (.not. included(k)) then
           call raise_to(violation%sign, abs(f), largest)
@@ -448,48 +472,44 @@ contains
     type(fuge_solution), intent(in) :: solution
     type(point_space), intent(in) :: space
     real(dp) :: violation
-    real(dp) :: sums(2), spring(size(solution%motion))
+    real(dp) :: spring, sums(2)
     integer :: j
 
     violation = 0.0_dp
-    spring = problem%spring_loads(solution%motion)
     do j = 1, problem%mode_count()
       if (is_prescribed(problem, j)) violation = max(violation, &
         relative(abs(solution%motion(j) - problem%motion(j)), abs(problem%motion(j))))
     end do
     if (allocated(problem%modes)) then
-      violation = max(violation, imbalance_in_modes(problem, solution%force, spring, space))
+      violation = max(violation, imbalance_in_modes(problem, solution, space))
     else if (.not. is_prescribed(problem, 1)) then
       sums = [sum(solution%force), sum(abs(solution%force))]
       call space%add(sums)
-      violation = max(violation, relative(abs((sums(1) - problem%resultant(1)) + spring(1)), &
-                                          max(sums(2), abs(problem%resultant(1)), abs(spring(1)))))
+      spring = problem%spring_load(1, solution%motion(1))
+      violation = max(violation, relative(abs((sums(1) - problem%resultant(1)) + spring), &
+                                          max(sums(2), abs(problem%resultant(1)), abs(spring))))
     end if
   end function equilibrium_violation
 
   !> Equation (11) in the free modes of a problem that has modes, relative to the terms of the sum; without a resultant
   !> at least to a fraction of the largest force of the body, since along an axis without a load forces at tied points
-  !> may be the rounding of those along the other axes. The springs on the motions carry `spring` (m).
-  function imbalance_in_modes(problem, force, spring, space) result(violation)
+  !> may be the rounding of those along the other axes.
+  function imbalance_in_modes(problem, solution, space) result(violation)
     type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: force(:), spring(:)
+    type(fuge_solution), intent(in) :: solution
     type(point_space), intent(in) :: space
     real(dp) :: violation
-    real(dp) :: by_mode(size(problem%modes, 2)), own, largest, imbalance, spring_force, sums(2), extremes(4)
-    integer :: j, k
+    real(dp) :: of_bodies(2, size(problem%modes, 2)), extremes(4), sums(2)
+    real(dp) :: own, largest, imbalance, spring, spring_force
+    integer :: j
 
     violation = 0.0_dp
-    spring_force = largest_spring_force(problem, spring, space)
-    by_mode = largest_by_mode(problem%modes, force, space)
+    spring_force = largest_spring_force(problem, solution%motion, space)
+    call find_extremes_of_bodies(problem, solution%force, space, of_bodies)
     do j = 1, size(problem%modes, 2)
       if (is_prescribed(problem, j)) cycle
-      associate (mode => problem%modes(:, j), resultant => problem%resultant(j))
-        extremes = [-huge(own), maxval(abs(force)), maxval(abs(mode)), 0.0_dp]
-        do k = 1, size(force)
-          if (.not. abs(mode(k)) > 0.0_dp) cycle
-          extremes(1) = max(extremes(1), largest_of_body(problem%modes, by_mode, k))
-          if (is_loaded(problem, k)) extremes(4) = 1.0_dp
-        end do
+      associate (mode => problem%modes(:, j), resultant => problem%resultant(j), force => solution%force)
+        extremes = [of_bodies(1, j), maxval(abs(force)), maxval(abs(mode)), of_bodies(2, j)]
         call space%raise(extremes)
         sums = [sum(mode*force), sum(abs(mode*force))]
         call space%add(sums)
@@ -497,29 +517,68 @@ contains
         largest = max(extremes(2), spring_force)
         if (extremes(4) > 0.0_dp) largest = own
         largest = ROUNDINGS*epsilon(largest)*extremes(3)*largest
-        imbalance = max(abs((sums(1) - resultant) + spring(j)) - largest, 0.0_dp)
+        spring = problem%spring_load(j, solution%motion(j))
+        imbalance = max(abs((sums(1) - resultant) + spring) - largest, 0.0_dp)
         if (abs(resultant) > 0.0_dp) own = 0.0_dp
-        violation = max(violation, relative(imbalance, max(sums(2), abs(resultant), abs(spring(j)), &
+        violation = max(violation, relative(imbalance, max(sums(2), abs(resultant), abs(spring), &
                                                            BESIDE*extremes(3)*own)))
       end associate
     end do
   end function imbalance_in_modes
 
-  !> The largest force that a spring on a motion stands for, in which motions round together: the part of the resultant
-  !> that it carries, `spring` (m), over the largest displacement of its mode.
-  function largest_spring_force(problem, spring, space) result(largest)
+  !> Of the points of this rank that a mode moves, the largest `force` of their bodies, -huge if there are no such
+  !> points, and 1 if a load acts on any of them, else 0: `extremes` (2, m).
+  subroutine find_extremes_of_bodies(problem, force, space, extremes)
     type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: spring(:)
+    real(dp), intent(in) :: force(:)
+    type(point_space), intent(in) :: space
+    real(dp), intent(out) :: extremes(:, :)
+    real(dp) :: by_mode(size(extremes, 2))
+    integer :: i, j
+
+    by_mode = largest_by_mode(problem%modes, force, space)
+    extremes(1, :) = -huge(extremes)
+    extremes(2, :) = 0.0_dp
+    do j = 1, size(extremes, 2)
+      do i = 1, size(extremes, 2)
+        if (.not. move_a_point_together(problem%modes(:, i), problem%modes(:, j))) cycle
+        extremes(1, j) = max(extremes(1, j), by_mode(i))
+        if (is_prescribed(problem, i)) cycle
+        if (abs(problem%resultant(i)) > 0.0_dp) extremes(2, j) = 1.0_dp
+      end do
+    end do
+  end subroutine find_extremes_of_bodies
+
+  !> Is there a point that both modes (n) move? For modes of one body the first point often is.
+  pure function move_a_point_together(one, other) result(together)
+    real(dp), intent(in) :: one(:), other(:)
+    logical :: together
+    integer :: k
+
+    together = .false.
+    do k = 1, size(one)
+      together = abs(one(k)) > 0.0_dp .and. abs(other(k)) > 0.0_dp
+      if (together) return
+    end do
+  end function move_a_point_together
+
+  !> The largest force that a spring on a motion stands for, in which motions round together: the part of the resultant
+  !> that it carries under `motion` (m), over the largest displacement of its mode.
+  function largest_spring_force(problem, motion, space) result(largest)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: motion(:)
     type(point_space), intent(in) :: space
     real(dp) :: largest
-    real(dp) :: arms(size(spring))
+    real(dp) :: arm, load
     integer :: j
 
     largest = 0.0_dp
-    if (.not. any(abs(spring) > 0.0_dp)) return
-    arms = [(maxval(abs(problem%modes(:, j))), j=1, size(arms))]
-    call space%raise(arms)
-    largest = maxval(abs(spring)/arms, mask=arms > 0.0_dp)
+    do j = 1, size(motion)
+      load = abs(problem%spring_load(j, motion(j)))
+      if (.not. load > 0.0_dp) cycle
+      arm = space%largest(maxval(abs(problem%modes(:, j))))
+      if (arm > 0.0_dp) largest = max(largest, load/arm)
+    end do
   end function largest_spring_force
 
   !> The lengths that forces leave open where they dwarf the data, as a fraction of the lengths in the data; 0 up to
@@ -534,7 +593,7 @@ contains
     logical, intent(in) :: included(:)
     type(point_space), intent(in) :: space
     real(dp) :: violation
-    real(dp) :: excess, largest, length, open, share, terms, total
+    real(dp) :: excess, largest, length, open, terms, total
     type(point_law) :: law
     integer :: k
 
@@ -548,19 +607,20 @@ contains
       if (included(k)) total = total + abs(solution%force(k))/largest
     end do
     total = space%total(total)
-    open = 0.0_dp
     terms = 0.0_dp
     do k = 1, size(error)
-      share = merge(abs(solution%force(k)), 0.0_dp, included(k))/largest/total
-      terms = terms + share*elastic(k)
+      if (included(k)) terms = terms + abs(solution%force(k))/largest/total*elastic(k)
+    end do
+    length = data_length(problem, solution%force, elastic, included, space)
+    if (DWARFED*space%total(terms) <= length) return
+    open = 0.0_dp
+    do k = 1, size(error)
       law = problem%law(k)
       ! Elsewhere the terms of a displacement excuse rounding; here only those of R q and the datum do.
       excess = max(abs(error(k)) - 2.0_dp*epsilon(excess)*(abs(problem%gap(k)) + rigid_magnitude(k)), &
                    epsilon(excess)*elastic(k), law%stop_distance(solution%force(k), solution%gap(k)))
-      open = open + share*excess
+      open = open + merge(abs(solution%force(k)), 0.0_dp, included(k))/largest/total*excess
     end do
-    length = data_length(problem, solution%force, elastic, included, space)
-    if (DWARFED*space%total(terms) <= length) return
     violation = relative(space%total(open), length)
     if (violation <= RESOLVED) violation = 0.0_dp
   end function unresolved_lengths
@@ -572,19 +632,20 @@ contains
     type(fuge_solution), intent(in) :: solution
     logical :: sizes_agree
     type(point_space) :: space
-    integer :: m
+    integer :: m, n
 
     m = problem%mode_count()
+    n = operator%points()
     space = operator%ranks()
-    sizes_agree = (operator%points() > 0 .or. .not. space%is_alone()) .and. size_of(problem%gap) == operator%points() &
-      .and. size_of(solution%force) == operator%points() &
-      .and. size_of(solution%gap) == operator%points() .and. size_of(solution%motion) == m
-    if (allocated(problem%modes)) sizes_agree = sizes_agree .and. size(problem%modes, 1) == operator%points()
-    if (allocated(problem%gap_upper)) sizes_agree = sizes_agree .and. size(problem%gap_upper) == operator%points()
-    if (allocated(problem%excluded)) sizes_agree = sizes_agree .and. size(problem%excluded) == operator%points()
-    if (allocated(problem%compliance)) sizes_agree = sizes_agree .and. size(problem%compliance) == operator%points()
-    if (allocated(problem%limit)) sizes_agree = sizes_agree .and. size(problem%limit) == operator%points()
-    if (allocated(problem%limit_upper)) sizes_agree = sizes_agree .and. size(problem%limit_upper) == operator%points()
+    sizes_agree = (n > 0 .or. .not. space%is_alone()) .and. size_of(problem%gap) == n &
+      .and. size_of(solution%force) == n &
+      .and. size_of(solution%gap) == n .and. size_of(solution%motion) == m
+    if (allocated(problem%modes)) sizes_agree = sizes_agree .and. size(problem%modes, 1) == n
+    if (allocated(problem%gap_upper)) sizes_agree = sizes_agree .and. size(problem%gap_upper) == n
+    if (allocated(problem%excluded)) sizes_agree = sizes_agree .and. size(problem%excluded) == n
+    if (allocated(problem%compliance)) sizes_agree = sizes_agree .and. size(problem%compliance) == n
+    if (allocated(problem%limit)) sizes_agree = sizes_agree .and. size(problem%limit) == n
+    if (allocated(problem%limit_upper)) sizes_agree = sizes_agree .and. size(problem%limit_upper) == n
     if (allocated(problem%motion_stiffness)) sizes_agree = sizes_agree .and. size(problem%motion_stiffness) == m
     if (allocated(problem%prescribed)) then
       sizes_agree = sizes_agree .and. size(problem%prescribed) == m .and. size_of(problem%motion) == m

@@ -55,6 +55,7 @@ contains
     integer :: j
 
     gap = problem%gap(k)
+    if (.not. allocated(problem%prescribed)) return
     do j = 1, problem%mode_count()
       if (.not. is_prescribed(problem, j)) cycle
       if (allocated(problem%modes)) then
@@ -100,8 +101,10 @@ contains
 
     loaded = .false.
     do j = 1, size(problem%modes, 2)
-      if (is_prescribed(problem, j) .or. .not. abs(problem%modes(k, j)) > 0.0_dp) cycle
-      loaded = loaded .or. abs(problem%resultant(j)) > 0.0_dp
+      if (.not. abs(problem%modes(k, j)) > 0.0_dp) cycle
+      if (is_prescribed(problem, j)) cycle
+      loaded = abs(problem%resultant(j)) > 0.0_dp
+      if (loaded) return
     end do
   end function is_loaded
 

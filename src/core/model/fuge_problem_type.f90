@@ -66,7 +66,9 @@ module fuge_problem_type
     procedure :: has_springs
     procedure :: has_law
     procedure :: law
+    procedure :: spring_load
     procedure :: spring_loads
+    procedure :: spring_count
     procedure :: stiffnesses
     procedure :: motions_on_springs
     procedure :: arms
@@ -126,8 +128,9 @@ contains
     logical :: has_one_load
 
     has_one_load = .not. (allocated(self%modes) .or. allocated(self%gap_upper) .or. allocated(self%excluded) &
-                          .or. self%has_limits() .or. any(self%motions_on_springs()))
+                          .or. self%has_limits())
     if (has_one_load .and. allocated(self%prescribed)) has_one_load = .not. any(self%prescribed)
+    if (has_one_load .and. allocated(self%motion_stiffness)) has_one_load = self%spring_count() < 1
   end function has_one_load
 
   !> Do forces have limits?
@@ -167,14 +170,41 @@ contains
     if (self%excluded(k)) law = point_law(limit=0.0_dp, limit_upper=0.0_dp)
   end function law
 
+  !> What the spring on motion `j` takes of its resultant under `motion`, S q; zero without a spring, or where
+  !> prescribed.
+  pure function spring_load(self, j, motion) result(load)
+    class(fuge_problem), intent(in) :: self
+    integer, intent(in) :: j
+    real(dp), intent(in) :: motion
+    real(dp) :: load
+
+    load = 0.0_dp
+    if (.not. allocated(self%motion_stiffness)) return
+    load = self%motion_stiffness(j)*motion
+    if (.not. allocated(self%prescribed)) return
+    if (self%prescribed(j)) load = 0.0_dp
+  end function spring_load
+
   !> What the springs on the motions `motion` (m) take of the resultants, S q, (m); zero where prescribed.
   pure function spring_loads(self, motion) result(loads)
     class(fuge_problem), intent(in) :: self
     real(dp), intent(in) :: motion(:)
     real(dp) :: loads(size(motion))
+    integer :: j
 
-    loads = self%stiffnesses()*motion
+    do j = 1, size(motion)
+      loads(j) = self%spring_load(j, motion(j))
+    end do
   end function spring_loads
+
+  !> The number of free motions that are on a spring.
+  pure function spring_count(self)
+    class(fuge_problem), intent(in) :: self
+    integer :: spring_count
+
+    spring_count = 0
+    if (allocated(self%motion_stiffness)) spring_count = count(self%motions_on_springs())
+  end function spring_count
 
   !> The stiffness of the spring on each motion, (m); zero where there is none, or the motion is prescribed.
   pure function stiffnesses(self)
@@ -294,14 +324,23 @@ contains
     call check_length(problem%gap, n, 'gap', info)
     if (.not. info%failed()) call check_values(problem%gap, 'gap', info)
     if (.not. info%failed()) call check_stops(problem, n, info)
-    if (.not. info%failed()) call check_stiffnesses(problem%compliance, n, 'compliance', info)
-    if (.not. info%failed()) call check_limits(problem%limit, n, 'limit', info)
-    if (.not. info%failed()) call check_limits(problem%limit_upper, n, 'limit_upper', info)
     ! Before the modes, whose load has another sign where a motion is on a spring.
-    if (.not. info%failed()) call check_stiffnesses(problem%motion_stiffness, problem%mode_count(), &
-                                                    'motion_stiffness', info)
+    if (problem%has_law() .and. .not. info%failed()) call check_law(problem, n, info)
     if (.not. info%failed()) call check_modes(problem, n, info)
   end subroutine check_problem
+
+  !> Check compliances, limits of forces and springs on motions.
+  pure subroutine check_law(problem, n, info)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: n
+    type(fuge_info), intent(inout) :: info
+
+    call check_stiffnesses(problem%compliance, n, 'compliance', info)
+    if (.not. info%failed()) call check_limits(problem%limit, n, 'limit', info)
+    if (.not. info%failed()) call check_limits(problem%limit_upper, n, 'limit_upper', info)
+    if (.not. info%failed()) call check_stiffnesses(problem%motion_stiffness, problem%mode_count(), &
+                                                    'motion_stiffness', info)
+  end subroutine check_law
 
   !> Check play and exclusions.
   pure subroutine check_stops(problem, n, info)
@@ -343,11 +382,9 @@ contains
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: n
     type(fuge_info), intent(inout) :: info
-    logical :: free(problem%mode_count())
     integer :: j, m
 
     m = problem%mode_count()
-    free = .true.
     if (allocated(problem%modes)) then
       if (size(problem%modes, 1) /= n) then
         call report(info, FUGE_ERR_SIZE, 'modes has '//text(size(problem%modes, 1))//' rows: it needs one for ' &
@@ -365,21 +402,34 @@ contains
                     //text(m))
         return
       end if
-      free = .not. problem%prescribed
       call check_length(problem%motion, m, 'motion', info)
       if (info%failed()) return
       call check_values(merge(problem%motion, 0.0_dp, problem%prescribed), 'prescribed motion', info)
       if (info%failed()) return
     end if
-    if (.not. any(free)) return
+    call check_resultants(problem, m, info)
+  end subroutine check_modes
+
+  !> Check the resultants in the free ones of `m` modes.
+  pure subroutine check_resultants(problem, m, info)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: m
+    type(fuge_info), intent(inout) :: info
+
+    if (m < 1) return
+    if (allocated(problem%prescribed)) then
+      if (all(problem%prescribed)) return
+    end if
     call check_length(problem%resultant, m, 'resultant', info)
     if (info%failed()) return
     if (problem%has_one_load()) then
       call check_load(problem%resultant(1), info)
+    else if (allocated(problem%prescribed)) then
+      call check_values(merge(0.0_dp, problem%resultant, problem%prescribed), 'resultant', info)
     else
-      call check_values(merge(problem%resultant, 0.0_dp, free), 'resultant', info)
+      call check_values(problem%resultant, 'resultant', info)
     end if
-  end subroutine check_modes
+  end subroutine check_resultants
 
   !> Refuse a load that is not finite (FUGE_ERR_NOT_FINITE), negative (FUGE_ERR_NO_EQUILIBRIUM), or so small that
   !> forces below it lose digits (FUGE_ERR_OVERFLOW).

@@ -17,7 +17,7 @@ module fuge_dense_engine
   use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution
   use fuge_sensitivity, only: find_derivative
   use fuge_spring_matrix, only: extend_problem, find_spring_motions, name_springs, needs_springs, &
-    shift_spring_forces, spring_count, spring_matrix, strip_solution
+    shift_spring_forces, spring_matrix, strip_solution
   use fuge_spring_monitor, only: spring_monitor
   use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED
@@ -70,14 +70,13 @@ contains
     type(fuge_history), intent(inout) :: history
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
-    type(fuge_problem) :: without_springs
 
     self%found_factor = .false.
     select type (operator)
     class is (fuge_dense_operator)
       self%spring_points = 0
       self%with_springs = needs_springs(problem)
-      if (options%keep_history .and. spring_count(problem) > 0) then
+      if (options%keep_history .and. problem%spring_count() > 0) then
         call report(info, FUGE_ERR_UNSUPPORTED, 'the history has no columns for springs on motions: leave ' &
                     //'keep_history out, or motion_stiffness')
         return
@@ -85,11 +84,7 @@ contains
       if (self%with_springs) then
         call solve_with_springs(self, operator, problem, options, monitor, history, solution, info)
       else if (problem%has_springs()) then
-        ! Springs of zero only: the matrix is that of the caller.
-        if (allocated(self%springs)) deallocate (self%springs)
-        call extend_problem(problem, without_springs, info)
-        if (info%failed()) return
-        call solve_with_matrix(self, operator, without_springs, options, monitor, history, solution, info)
+        call solve_without_springs(self, operator, problem, options, monitor, history, solution, info)
       else
         if (allocated(self%springs)) deallocate (self%springs)
         call solve_with_matrix(self, operator, problem, options, monitor, history, solution, info)
@@ -99,6 +94,24 @@ contains
                   //'FUGE_ITERATIVE for other operators')
     end select
   end subroutine solve
+
+  !> With springs of zero only: the matrix is that of the caller.
+  subroutine solve_without_springs(self, operator, problem, options, monitor, history, solution, info)
+    class(dense_engine), intent(inout) :: self
+    class(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout) :: monitor
+    type(fuge_history), intent(inout) :: history
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    type(fuge_problem) :: without_springs
+
+    if (allocated(self%springs)) deallocate (self%springs)
+    call extend_problem(problem, without_springs, info)
+    if (info%failed()) return
+    call solve_with_matrix(self, operator, without_springs, options, monitor, history, solution, info)
+  end subroutine solve_without_springs
 
   !> With springs, as parts of the matrix.
   subroutine solve_with_springs(self, operator, problem, options, monitor, history, solution, info)
@@ -123,7 +136,7 @@ contains
     if (.not. info%failed()) then
       call springs%as_operator(with_springs)
       relay%listener => monitor
-      relay%springs = spring_count(problem)
+      relay%springs = problem%spring_count()
       call solve_with_matrix(self, with_springs, extended, options, relay, history, solution, info)
       if (.not. info%failed() .and. relay%springs > 0) then
         call correct_spring_loads(self, with_springs, problem, extended, options, relay, solution, info)
@@ -132,7 +145,7 @@ contains
     end if
     call move_alloc(springs, self%springs)
     if (info%failed()) return
-    self%spring_points = spring_count(problem)
+    self%spring_points = problem%spring_count()
     call find_spring_motions(problem, extended, solution%force, solution%motion)
     call strip_solution(problem%points(), solution, info)
   end subroutine solve_with_springs
@@ -155,7 +168,7 @@ contains
     type(fuge_options) :: by_active_set
     type(fuge_solution) :: corrected
     type(fuge_info) :: again
-    real(dp) :: carried(spring_count(problem))
+    real(dp) :: carried(problem%spring_count())
     integer :: n
 
     n = problem%points()

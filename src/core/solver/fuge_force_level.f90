@@ -39,6 +39,7 @@ contains
     real(dp) :: beyond, largest, rounding
     logical :: contradicts
 
+    if (canonical%plain .or. canonical%has_translation) return
     if (.not. equal_forces_have_no_resultant(canonical)) return
     call find_room(canonical, gap, state, beyond, largest, rounding, contradicts)
     if (.not. (beyond >= 0.0_dp .or. contradicts)) return
@@ -71,6 +72,7 @@ contains
 
     ! Without any motion there is none to change.
     if (info%status /= FUGE_ERR_NOT_DEFINITE .or. canonical%mode_count() < 1) return
+    if (canonical%plain .or. canonical%has_translation) return
     if (.not. equal_forces_have_no_resultant(canonical)) return
     call find_room(canonical, gap, spread(FUGE_OPEN, 1, size(gap)), beyond, largest, rounding, contradicts)
     if (.not. beyond > max(tolerance*largest, rounding)) return
@@ -89,7 +91,8 @@ contains
                 //': prescribe other motions, or resultants, or change the gaps')
   end subroutine report_beyond
 
-  !> Do all points take part, and have equal forces on them no resultant in any free mode?
+  !> Do all points take part, and have equal forces on them no resultant in any free mode, none of which is a
+  !> translation?
   function equal_forces_have_no_resultant(canonical) result(none)
     type(canonical_problem), intent(in) :: canonical
     logical :: none
@@ -97,7 +100,6 @@ contains
     integer :: j, m
 
     none = .false.
-    if (canonical%plain .or. canonical%has_translation) return
     if (canonical%space%anywhere(any(canonical%excluded))) return
     m = size(canonical%load)
     do j = 1, m

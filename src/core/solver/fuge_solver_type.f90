@@ -17,7 +17,8 @@ module fuge_solver_type
   use fuge_product_engine, only: product_engine
   use fuge_point_space, only: point_space
   use fuge_shared_problem, only: check_shared_problem, differ
-  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_OPTION
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, &
+    FUGE_ERR_OPTION
   use fuge_unloaded_contact, only: is_unloaded, solve_without_load
   implicit none
   private
@@ -30,7 +31,8 @@ module fuge_solver_type
     !> Basis and z of each pivot of the last tableau solve, if it was asked for.
     type(fuge_history) :: history
     type(dense_engine), private :: by_matrix
-    type(product_engine), private :: by_products
+    !> Allocated by the first solve that needs it: many solvers of small problems never do.
+    type(product_engine), allocatable, private :: by_products
     !> The last solve was by the iteration.
     logical, private :: solved_by_products = .false.
     !> The last solve was accepted, and had a load: only then are there derivatives.
@@ -98,6 +100,8 @@ contains
     else
       self%solved_by_products = takes_products(operator, chosen)
       if (self%solved_by_products) then
+        call require_product_engine(self%by_products, space, info)
+        if (info%failed()) return
         call solve_again_if_misled(self%by_products, operator, problem, chosen, relay, self%history, candidate, info)
       else
         call solve_again_if_misled(self%by_matrix, operator, problem, chosen, relay, self%history, candidate, info)
@@ -115,6 +119,19 @@ contains
       call move_solution(candidate, solution)
     end if
   end subroutine solve
+
+  !> Allocate the engine unless it is already. Error: FUGE_ERR_MEMORY.
+  subroutine require_product_engine(engine, space, info)
+    type(product_engine), intent(inout), allocatable :: engine
+    type(point_space), intent(in) :: space
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    stat = 0
+    if (.not. allocated(engine)) allocate (engine, stat=stat)
+    call require_memory(stat, 'the iteration', info)
+    call space%agree(info)
+  end subroutine require_product_engine
 
   !> Which engine? FUGE_AUTO is the active set for a matrix, or the tableau if the history is asked for, which it alone
   !> keeps; for any other operator the iteration, which takes products.
@@ -194,7 +211,7 @@ contains
     self%has_solution = .false.
     self%last_report = fuge_info()
     call self%by_matrix%forget_start()
-    call self%by_products%forget_start()
+    if (allocated(self%by_products)) call self%by_products%forget_start()
   end subroutine reset
 
   !> How the last solution changes with gaps and load, to first order, and exactly as long as the contact set stays:

@@ -224,10 +224,11 @@ contains
     associate (upper => canonical%upper, state => solution%state, force => solution%force, motion => solution%motion)
       if (canonical%has_limits()) then
         call keep_in_range(canonical, state, force)
+        where (abs(force) <= set%zero_force .and. abs(state) < 2) force = 0.0_dp
       else
         where (upper > 0.0_dp) force = real(state, dp)*max(state*force, 0.0_dp)
+        where (abs(force) <= set%zero_force) force = 0.0_dp
       end if
-      where (abs(force) <= set%zero_force .and. abs(state) < 2) force = 0.0_dp
       if (canonical%plain) then
         motion(1) = translation_at_shallowest(canonical%alpha, canonical%datum, set%reduced_gap, set%contact, force, &
                                               motion(1))

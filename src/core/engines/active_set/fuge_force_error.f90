@@ -8,7 +8,7 @@
 module fuge_force_error
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
-  use fuge_contact_states, only: is_at_stop
+  use fuge_contact_states, only: is_at_stop, FUGE_AT_LOWER_STOP
   use fuge_displacements, only: add_elastic_displacement, displacement_magnitude_at
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
@@ -198,16 +198,19 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: change, relative, most, open, slack
     integer :: k, points
+    logical :: limited
 
     error = 0.0_dp
+    limited = canonical%has_limits()
     relative = ROUNDINGS*epsilon(relative) + solution%violation
     most = relative*max(canonical%survey%most - canonical%datum, canonical%datum - canonical%survey%least) &
            *sum(abs(solution%force)) + solution%violation*maxval(solution%gap)
     if (allocated(arrays%length)) most = most + maxval(arrays%length)
     points = 0
     do k = 1, size(solution%state)
-      if (is_at_stop(solution%state(k)) .or. canonical%excluded(k)) cycle
-      slack = canonical%slack(k, solution%state(k), solution%gap(k))
+      if (abs(solution%state(k)) == FUGE_AT_LOWER_STOP .or. canonical%excluded(k)) cycle
+      slack = min(solution%gap(k), canonical%upper(k) - solution%gap(k))
+      if (limited) slack = canonical%slack(k, solution%state(k), solution%gap(k))
       if (slack > most) cycle
       call make_room(arrays, solution, info)
       if (info%failed()) return

@@ -110,9 +110,14 @@ contains
       return
     end if
     self%modes = modes
-    self%base_set = pack([(i, i=1, size(contact))], contact)
     self%position = 0
-    self%position(self%base_set) = [(i, i=1, m)]
+    m = 0
+    do i = 1, size(contact)
+      if (.not. contact(i)) cycle
+      m = m + 1
+      self%base_set(m) = i
+      self%position(i) = m
+    end do
   end subroutine choose_base_set
 
   pure subroutine deallocate_all(self)

@@ -93,6 +93,7 @@ contains
     self%contact = abs(state) == FUGE_AT_LOWER_STOP
     call find_gap_at_stops(self, canonical, state)
     if (allocated(self%limit_force)) deallocate (self%limit_force, self%limit_displacement)
+    if (.not. canonical%has_limits()) return
     if (any(abs(state) > 1)) call load_limited_points(self, canonical, state)
   end subroutine mark
 
@@ -325,7 +326,8 @@ contains
           self%violation(j) = beyond/scale(j)
           cycle
         end if
-        beyond = -canonical%slack(j, state, gap)
+        beyond = max(-gap, gap - canonical%upper(j))
+        if (allocated(least)) beyond = -canonical%slack(j, state, gap)
         if (.not. beyond > 0.0_dp) cycle
         rigid_gap = abs(gap - self%elastic(j))
         terms = abs((canonical%alpha(j, strongest) - canonical%datum)*largest)

@@ -173,11 +173,19 @@ contains
     class(canonical_problem), intent(in) :: self
     real(dp), intent(in) :: force(:)
     logical :: carried
+
+    carried = self%plain
+    if (.not. carried) carried = modes_are_carried_by(self, force)
+  end function is_carried_by
+
+  !> As `is_carried_by`, mode by mode.
+  pure function modes_are_carried_by(self, force) result(carried)
+    type(canonical_problem), intent(in) :: self
+    real(dp), intent(in) :: force(:)
+    logical :: carried
     real(dp) :: noise(1), of_bodies(size(force))
     integer :: j
 
-    carried = self%plain
-    if (carried) return
     of_bodies = 0.0_dp
     do j = 1, size(self%load)
       of_bodies = merge(max(of_bodies, abs(self%load(j))), of_bodies, abs(self%modes(:, j)) > 0.0_dp)
@@ -189,7 +197,7 @@ contains
       carried = carried .and. is_in_equilibrium(self%modes(:, j:j), self%load(j:j), noise, force, &
                                                 self%load(j:j) - dot_product(force, self%modes(:, j)))
     end do
-  end function is_carried_by
+  end function modes_are_carried_by
 
   !> Are there several bodies, of which each may have a load of its own?
   pure function has_bodies(self)

@@ -200,24 +200,23 @@ contains
     if (real(count(abs(force) > 0.0_dp), dp) > MANY*real(n, dp)) then
       call dsymv('L', n, factor, alpha, size(alpha, 1), force, 1, 1.0_dp, u, 1)
     else if (any(abs(force) > 0.0_dp)) then
-      call add_some_columns(alpha, factor, abs(force) > 0.0_dp, force, u)
+      call add_some_columns(alpha, factor, force, u)
     end if
   end subroutine add_rough_product
 
-  !> u := u + factor alpha f, with the columns of the `loaded` points only.
-  subroutine add_some_columns(alpha, factor, loaded, force, u)
+  !> u := u + factor alpha f, with the columns of the points only that have a force.
+  subroutine add_some_columns(alpha, factor, force, u)
     real(dp), intent(in), contiguous :: alpha(:, :), force(:)
     real(dp), intent(in) :: factor
-    logical, intent(in) :: loaded(:)
     real(dp), intent(inout), contiguous :: u(:)
-    logical :: rest(size(loaded))
+    logical :: rest(size(force))
     integer :: first, last, n
 
     n = size(u)
-    rest = loaded
+    rest = abs(force) > 0.0_dp
     last = 0
     do
-      call next_run(loaded, last + 1, first, last)
+      call next_run(rest, last + 1, first, last)
       if (first > n) exit
       if (last - first + 1 < LONG_RUN) cycle
       call dgemv('N', n, last - first + 1, factor, alpha(:, first:last), size(alpha, 1), force(first:last), 1, &

@@ -29,10 +29,9 @@ contains
     real(dp), intent(in) :: first(:), rate(:), parameter, origin
     type(fuge_problem), intent(inout) :: problem
     type(fuge_solution), intent(inout) :: solution
-    real(dp) :: carried, load, noise, spring(size(first))
+    real(dp) :: carried, load, noise
     integer :: j
 
-    spring = problem%spring_loads(solution%motion)
     do j = 1, size(first)
       load = first(j) + parameter*rate(j)
       noise = ROUNDING*(abs(first(j)) + (parameter + origin)*abs(rate(j)))
@@ -41,8 +40,9 @@ contains
         problem%motion(j) = load
         if (abs(solution%motion(j) - load) <= noise) solution%motion(j) = load
       else
-        carried = sum(solution%force) + spring(j)
-        if (allocated(problem%modes)) carried = sum(problem%modes(:, j)*solution%force) + spring(j)
+        carried = sum(solution%force)
+        if (allocated(problem%modes)) carried = sum(problem%modes(:, j)*solution%force)
+        carried = carried + problem%spring_load(j, solution%motion(j))
         problem%resultant(j) = merge(carried, load, abs(carried - load) <= noise)
       end if
     end do

@@ -34,8 +34,7 @@ module fuge_spring_matrix
     procedure :: clear
   end type spring_matrix
 
-  public :: extend_problem, find_spring_motions, name_springs, needs_springs, shift_spring_forces, spring_count, &
-    strip_solution
+  public :: extend_problem, find_spring_motions, name_springs, needs_springs, shift_spring_forces, strip_solution
 
 contains
 
@@ -46,7 +45,7 @@ contains
     class(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_info), intent(inout) :: info
-    real(dp) :: compliance(operator%points()), stiffness(spring_count(problem)), arm(spring_count(problem))
+    real(dp) :: compliance(operator%points()), stiffness(problem%spring_count()), arm(problem%spring_count())
     integer :: k, n, stat
 
     n = operator%points()
@@ -119,21 +118,13 @@ contains
     type(fuge_problem), intent(in) :: problem
     logical :: needs_springs
 
-    needs_springs = spring_count(problem) > 0
+    needs_springs = problem%spring_count() > 0
     if (allocated(problem%compliance)) needs_springs = needs_springs .or. any(problem%compliance > 0.0_dp)
   end function needs_springs
 
-  !> The number of free motions that have a spring.
-  pure function spring_count(problem)
-    type(fuge_problem), intent(in) :: problem
-    integer :: spring_count
-
-    spring_count = count(problem%motions_on_springs())
-  end function spring_count
-
   pure function spring_stiffnesses(problem) result(stiffness)
     type(fuge_problem), intent(in) :: problem
-    real(dp) :: stiffness(spring_count(problem))
+    real(dp) :: stiffness(problem%spring_count())
 
     if (allocated(problem%motion_stiffness)) stiffness = pack(problem%motion_stiffness, problem%motions_on_springs())
   end function spring_stiffnesses
@@ -142,7 +133,7 @@ contains
   !> none.
   pure function spring_arms(problem) result(arm)
     type(fuge_problem), intent(in) :: problem
-    real(dp) :: arm(spring_count(problem))
+    real(dp) :: arm(problem%spring_count())
     real(dp) :: largest(problem%mode_count())
 
     largest = problem%arms()
@@ -158,14 +149,14 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: infinity
     logical :: on_spring(problem%mode_count())
-    real(dp) :: arm(spring_count(problem))
+    real(dp) :: arm(problem%spring_count())
     integer :: j, m, n, springs, stat
 
     n = problem%points()
     m = problem%mode_count()
     on_spring = problem%motions_on_springs()
     arm = spring_arms(problem)
-    springs = spring_count(problem)
+    springs = problem%spring_count()
     infinity = ieee_value(1.0_dp, ieee_positive_inf)
     call copy_problem(problem, extended, info)
     if (info%failed()) return
@@ -247,10 +238,10 @@ contains
     real(dp), intent(in) :: force(:)
     real(dp), intent(inout) :: motion(:)
     logical :: on_spring(problem%mode_count())
-    real(dp) :: displacement(extended%points()), arm(spring_count(problem)), flexibility
+    real(dp) :: displacement(extended%points()), arm(problem%spring_count()), flexibility
     integer :: j, spring
 
-    if (spring_count(problem) < 1) return
+    if (problem%spring_count() < 1) return
     on_spring = problem%motions_on_springs()
     arm = spring_arms(problem)
     displacement = 0.0_dp

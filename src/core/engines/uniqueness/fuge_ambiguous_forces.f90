@@ -5,7 +5,7 @@
 module fuge_ambiguous_forces
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
-  use fuge_contact_states, only: is_at_stop
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_pivoted_qr, only: orthogonal_complement
@@ -33,10 +33,12 @@ contains
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     logical, intent(out) :: touching(:), beyond
-    real(dp) :: displacement, rounding
+    real(dp) :: displacement, rounding, slack
     integer :: first, k
+    logical :: limited
 
-    touching = is_at_stop(solution%state)
+    limited = canonical%has_limits()
+    touching = abs(solution%state) == FUGE_AT_LOWER_STOP
     beyond = .false.
     displacement = max(canonical%survey%most - canonical%datum, canonical%datum - canonical%survey%least) &
                    *sum(abs(solution%force))
@@ -45,7 +47,9 @@ contains
     rounding = ROUNDINGS*epsilon(rounding)*(displacement + sum(abs(solution%motion(first:))))
     do k = 1, size(touching)
       if (touching(k) .or. canonical%excluded(k)) cycle
-      touching(k) = canonical%slack(k, solution%state(k), solution%gap(k)) <= rounding
+      slack = min(solution%gap(k), canonical%upper(k) - solution%gap(k))
+      if (limited) slack = canonical%slack(k, solution%state(k), solution%gap(k))
+      touching(k) = slack <= rounding
       beyond = beyond .or. touching(k)
     end do
   end subroutine mark_touching
