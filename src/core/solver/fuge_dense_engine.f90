@@ -37,6 +37,8 @@ module fuge_dense_engine
     type(kkt_factor) :: factor
     !> The last solve started from a factor that an earlier one had left.
     logical :: found_factor = .false.
+    !> The last solve got as far as the matrix, so that the factor may be its own.
+    logical :: took_matrix = .false.
     !> Arrays for the next solve, so that small problems do not spend their time on allocations.
     type(fuge_solution) :: spare
     type(working_set) :: set
@@ -72,6 +74,7 @@ contains
     type(fuge_info), intent(inout) :: info
 
     self%found_factor = .false.
+    self%took_matrix = .false.
     select type (operator)
     class is (fuge_dense_operator)
       self%spring_points = 0
@@ -234,6 +237,7 @@ contains
     if (info%failed()) return
     call allocate_solution(problem%points(), size(self%canonical%load), reduced, info, self%spare)
     if (info%failed()) return
+    self%took_matrix = .true.
     call self%canonical%set_matrix(operator%alpha, operator%datum(), operator%known(), operator%stamp())
     self%found_factor = self%factor%belongs_to(self%canonical)
     if (.not. self%found_factor) self%factor = kkt_factor()
@@ -322,10 +326,12 @@ contains
     was_misled = self%found_factor .and. any(status == [FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED])
   end function was_misled
 
-  !> The contact set stays a good start.
+  !> The contact set stays a good start; so does the factor where a load without equilibrium was refused before it was
+  !> used.
   subroutine distrust_start(self)
     class(dense_engine), intent(inout) :: self
 
+    if (.not. self%took_matrix) return
     self%factor = kkt_factor()
     if (allocated(self%springs)) deallocate (self%springs)
   end subroutine distrust_start
