@@ -17,7 +17,7 @@ module fuge_dense_engine
   use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution
   use fuge_sensitivity, only: find_derivative
   use fuge_spring_matrix, only: extend_problem, find_spring_motions, name_springs, needs_springs, &
-    shift_spring_forces, spring_matrix, strip_solution
+    scale_force_error, shift_spring_forces, spring_matrix, strip_solution
   use fuge_spring_monitor, only: spring_monitor
   use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED
@@ -194,31 +194,14 @@ contains
         again%iterations = info%iterations + again%iterations
         again%products = info%products + again%products
         info = again
-        call scale_force_error(n, corrected%force, info%force_error)
+        call scale_force_error(maxval(abs(corrected%force)), corrected%force(:n), info%force_error)
         corrected%force(n + 1:) = carried + corrected%force(n + 1:)
         call move_solution(corrected, solution)
         return
       end if
     end if
-    call scale_force_error(n, solution%force, info%force_error)
+    call scale_force_error(maxval(abs(solution%force)), solution%force(:n), info%force_error)
   end subroutine correct_spring_loads
-
-  !> Make an error relative to the largest of all forces relative to the largest one of the first `n`, those of points.
-  pure subroutine scale_force_error(n, force, force_error)
-    integer, intent(in) :: n
-    real(dp), intent(in) :: force(:)
-    real(dp), intent(inout) :: force_error
-    real(dp) :: largest, of_points
-
-    largest = maxval(abs(force))
-    of_points = maxval(abs(force(:n)))
-    if (.not. (of_points > 0.0_dp .and. largest > of_points)) return
-    if (force_error*largest < of_points) then
-      force_error = force_error*largest/of_points
-    else
-      force_error = 1.0_dp
-    end if
-  end subroutine scale_force_error
 
   subroutine solve_with_matrix(self, operator, problem, options, monitor, history, solution, info)
     class(dense_engine), intent(inout) :: self

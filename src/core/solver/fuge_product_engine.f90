@@ -2,6 +2,7 @@
 module fuge_product_engine
   use fuge_canonical_problem, only: canonical_problem, make_canonical
   use fuge_contact_engine, only: contact_engine
+  use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_force_level, only: judge_force_level
   use fuge_history_type, only: fuge_history
   use fuge_iterated_set, only: iterated_set
@@ -13,11 +14,15 @@ module fuge_product_engine
   use fuge_options_type, only: fuge_options
   use fuge_problem_type, only: check_load, fuge_problem, fuge_solution, move_solution, set_problem
   use fuge_point_space, only: point_space
+  use fuge_scaled_springs, only: scaled_springs
   use fuge_set_derivative, only: find_derivative_by_products
+  use fuge_spring_matrix, only: balance_springs, extend_problem, name_springs, scale_force_error, strip_solution
+  use fuge_spring_monitor, only: spring_monitor
   use fuge_spring_operator, only: spring_operator
   use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_ERR_CALLBACK, &
     FUGE_ERR_CANCELLED, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_OVERFLOW, &
     FUGE_ERR_UNSUPPORTED
+  use fuge_unresisted_motions, only: report_unresisted_motion
   use fuge_warm_start, only: load_history
   implicit none
   private
@@ -40,6 +45,9 @@ module fuge_product_engine
     !> zero where it has the spring.
     type(spring_operator), allocatable :: springs
     real(dp), allocatable :: soft(:)
+    !> Their units in the last problem, and the points that springs on motions were; not allocated on a grid, where
+    !> `springs` has them all.
+    type(scaled_springs), allocatable :: scaled
     !> The last problem needed its canonical form; otherwise, whether its approach was prescribed.
     logical :: is_general = .false., is_prescribed = .false.
   contains
@@ -66,6 +74,8 @@ contains
     type(fuge_history), intent(inout) :: history
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
+    type(point_space) :: space
+    integer :: cells(2)
 
     history = fuge_history()
     if (options%keep_history) then
@@ -74,12 +84,95 @@ contains
       return
     end if
     if (allocated(self%springs)) deallocate (self%springs)
-    if (problem%has_springs()) then
+    if (allocated(self%scaled)) deallocate (self%scaled)
+    cells = operator%grid()
+    space = operator%ranks()
+    if (problem%has_springs() .and. space%is_alone() .and. .not. all(cells > 0)) then
+      call solve_scaled(self, operator, problem, options, monitor, solution, info)
+    else if (problem%has_springs()) then
       call solve_on_springs(self, operator, problem, options, monitor, solution, info)
     else
       call solve_by_products(self, operator, problem, options, monitor, solution, info)
     end if
   end subroutine solve
+
+  !> With springs, in units of their own, and with a point more for each one on a motion. Not on a grid, where all
+  !> points have to be alike, nor where ranks share the points. Whether there is equilibrium, and what is not unique,
+  !> are questions in the units of the problem.
+  subroutine solve_scaled(self, operator, problem, options, monitor, solution, info)
+    class(product_engine), intent(inout) :: self
+    class(fuge_operator), intent(in), target :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
+    class(fuge_monitor), intent(inout), target :: monitor
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    ! Not those of the engine, which changes while it solves.
+    type(spring_operator), allocatable, target :: springs
+    type(scaled_springs), allocatable :: scaled
+    type(spring_monitor) :: relay
+    type(canonical_problem) :: canonical
+    type(fuge_problem) :: extended, similar
+    real(dp), allocatable :: balance(:)
+    real(dp) :: largest
+    logical :: on_spring(problem%mode_count()), possible
+    integer :: stat
+
+    allocate (springs, scaled, stat=stat)
+    call require_memory(stat, 'springs', info)
+    if (stat /= 0) return
+    on_spring = .false.
+    call springs%set_springs(problem, on_spring, operator%ranks(), info)
+    if (.not. info%failed()) call extend_problem(problem, extended, info)
+    if (.not. info%failed()) call make_canonical(extended, canonical, info)
+    if (.not. info%failed()) call scaled%set(operator, problem, extended, possible, info)
+    if (info%failed()) return
+    if (.not. possible) then
+      call solve_on_springs(self, operator, problem, options, monitor, solution, info)
+      return
+    end if
+    call scaled%scale_problem(extended, similar, info)
+    if (info%failed()) return
+    call springs%attach(operator)
+    call scaled%attach(springs)
+    if (allocated(canonical%feasible_force)) balance = scaled%scale_forces(canonical%feasible_force)
+    relay%listener => monitor
+    relay%springs = scaled%spring_points()
+    call solve_by_products(self, scaled, similar, options, relay, solution, info, balance)
+    call name_springs(problem, info)
+    if (info%failed()) return
+    call scaled%drop_rounding(similar, solution, largest)
+    call scaled%restore(solution)
+    call balance_springs(problem, extended, solution%force, solution%motion)
+    call warn_of_unresisted_motion(canonical, solution, info)
+    call strip_solution(problem%points(), solution, info)
+    if (info%failed()) return
+    if (.not. largest > 0.0_dp) info%force_error = 0.0_dp
+    call scale_force_error(largest, solution%force, info%force_error)
+    ! Motions on springs are found to the tolerance, and forces with them.
+    if (relay%springs > 0) info%force_error = max(info%force_error, options%tolerance)
+    call springs%detach()
+    call scaled%detach()
+    call move_alloc(springs, self%springs)
+    call move_alloc(scaled, self%scaled)
+  end subroutine solve_scaled
+
+  !> Warn of a motion that the contact of `solution` does not resist, unless there is a warning already. Error:
+  !> FUGE_ERR_MEMORY.
+  subroutine warn_of_unresisted_motion(canonical, solution, info)
+    type(canonical_problem), intent(in) :: canonical
+    type(fuge_solution), intent(in) :: solution
+    type(fuge_info), intent(inout) :: info
+    type(contact_solution) :: reduced
+
+    if (info%status /= FUGE_DONE) return
+    call allocate_solution(size(solution%force), size(canonical%load), reduced, info)
+    if (info%failed()) return
+    reduced%force = solution%force
+    reduced%gap = solution%gap
+    reduced%state = solution%state
+    call report_unresisted_motion(canonical, reduced, info)
+  end subroutine warn_of_unresisted_motion
 
   !> With springs, as parts of the operator. A motion on a spring so soft that the resultant would move it much farther
   !> than it gets is free instead, under the resultant less what its spring takes: a few solves find that, each with an
@@ -235,7 +328,8 @@ contains
     where (alone > farthest) excess = min(alone/max(farthest, tiny(farthest)), LARGEST_EXCESS)
   end function excess_motions
 
-  subroutine solve_by_products(self, operator, problem, options, monitor, solution, info)
+  !> `balance` (n), if given, are forces in equilibrium, which otherwise are looked for.
+  subroutine solve_by_products(self, operator, problem, options, monitor, solution, info, balance)
     class(product_engine), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -243,11 +337,12 @@ contains
     class(fuge_monitor), intent(inout) :: monitor
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
+    real(dp), intent(in), optional :: balance(:)
     type(point_space) :: space
 
     self%is_general = is_general(problem)
-    self%is_prescribed = .not. (self%is_general .or. problem%is_plain())
-    if (self%is_general) call make_canonical(problem, self%canonical, info, operator%ranks())
+    self%is_prescribed = .not. (self%is_general .or. problem%has_one_load())
+    if (self%is_general) call make_canonical(problem, self%canonical, info, operator%ranks(), balance)
     if (info%failed()) return
     call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%steps, self%last, solution, info)
     ! Do not retry a solve that the operator or the monitor has ended.
@@ -312,6 +407,7 @@ contains
 
     number = 0
     if (allocated(self%last%state)) number = size(self%last%state)
+    if (allocated(self%scaled)) number = number - self%scaled%spring_points()
   end function last_points
 
   pure function last_modes(self) result(number)
@@ -330,12 +426,37 @@ contains
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(inout) :: info
 
-    if (allocated(self%springs)) then
+    if (allocated(self%scaled)) then
+      call derivative_scaled(self, operator, gap_change, load_change, change, info)
+    else if (allocated(self%springs)) then
       call derivative_on_springs(self, operator, gap_change, load_change, change, info)
     else
       call differentiate(self, operator, gap_change, load_change, change, info)
     end if
   end subroutine derivative
+
+  !> With springs, in units of their own.
+  subroutine derivative_scaled(self, operator, gap_change, load_change, change, info)
+    class(product_engine), intent(in) :: self
+    class(fuge_operator), intent(in), target :: operator
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(inout) :: info
+    type(spring_operator), allocatable, target :: springs
+    type(scaled_springs), allocatable :: scaled
+    integer :: stat
+
+    allocate (springs, source=self%springs, stat=stat)
+    if (stat == 0) allocate (scaled, source=self%scaled, stat=stat)
+    call require_memory(stat, 'the springs of', size(gap_change), 'points', info)
+    if (stat /= 0) return
+    call springs%attach(operator)
+    call scaled%attach(springs)
+    call differentiate(self, scaled, scaled%scale_changes(gap_change), load_change, change, info)
+    if (info%failed()) return
+    call scaled%restore(change)
+    call strip_solution(size(gap_change), change, info)
+  end subroutine derivative_scaled
 
   !> With springs, as parts of the operator.
   subroutine derivative_on_springs(self, operator, gap_change, load_change, change, info)

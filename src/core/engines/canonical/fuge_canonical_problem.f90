@@ -60,12 +60,14 @@ contains
 
   !> The canonical form of a checked problem, without its matrix. Errors: FUGE_ERR_MEMORY, FUGE_ERR_MODES for
   !> linearly dependent modes, FUGE_ERR_NO_EQUILIBRIUM. Ranks, `sharing`, may share the points: then all of them call
-  !> it, with the same errors, and FUGE_ERR_UNSUPPORTED for modes of several bodies.
-  subroutine make_canonical(problem, canonical, info, sharing)
+  !> it, with the same errors, and FUGE_ERR_UNSUPPORTED for modes of several bodies. Forces in equilibrium are looked
+  !> for unless they are given, `balance` (n).
+  subroutine make_canonical(problem, canonical, info, sharing, balance)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(out) :: canonical
     type(fuge_info), intent(inout) :: info
     type(point_space), intent(in), optional :: sharing
+    real(dp), intent(in), optional :: balance(:)
     integer :: j, n, m, stat
 
     if (present(sharing)) canonical%space = sharing
@@ -92,7 +94,7 @@ contains
     else if (m > 0) then
       call orthogonalise(problem%modes, canonical, info)
     end if
-    if (.not. (info%failed() .or. canonical%plain)) call require_equilibrium(problem, canonical, info)
+    if (.not. (info%failed() .or. canonical%plain)) call require_equilibrium(problem, canonical, info, balance)
   end subroutine make_canonical
 
   !> Take the gaps and the load of another checked problem of the paper's kind, if this is one of as many points; all
@@ -226,11 +228,12 @@ contains
     where (.not. scale > 0.0_dp) scale = maxval(abs(force))
   end function force_scale
 
-  !> Find forces in equilibrium, or report that there are none.
-  subroutine require_equilibrium(problem, canonical, info)
+  !> Find forces in equilibrium, or report that there are none; `balance` (n) where they are known.
+  subroutine require_equilibrium(problem, canonical, info, balance)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
     type(fuge_info), intent(inout) :: info
+    real(dp), intent(in), optional :: balance(:)
     real(dp) :: remainder(size(canonical%load)), rounding(size(canonical%load))
     integer :: body(size(canonical%load)), j, stat
 
@@ -255,6 +258,10 @@ contains
       return
     end if
     if (any(body > 1)) call number_points(body, canonical)
+    if (present(balance)) then
+      canonical%feasible_force = balance
+      return
+    end if
     remainder = 0.0_dp
     do j = 1, size(body)
       if (body(j) == j) call balance_body(body == j, rounding, canonical, remainder, info)

@@ -19,6 +19,9 @@ module fuge_spring_matrix
   implicit none
   private
 
+  !> A spring is stiff if its resultant moves it by less than this fraction of how far the points get.
+  real(dp), parameter :: BELOW = 0.1_dp
+
   type, public :: spring_matrix
     private
     !> The matrix, (n + springs, n + springs); length per force.
@@ -34,7 +37,8 @@ module fuge_spring_matrix
     procedure :: clear
   end type spring_matrix
 
-  public :: extend_problem, find_spring_motions, name_springs, needs_springs, shift_spring_forces, strip_solution
+  public :: balance_springs, extend_problem, find_spring_motions, name_springs, needs_springs, scale_force_error, &
+    shift_spring_forces, strip_solution
 
 contains
 
@@ -258,6 +262,50 @@ contains
       end if
     end do
   end subroutine find_spring_motions
+
+  !> Motions on springs from equilibrium with the forces of the points, for an iteration, which finds lengths to its
+  !> tolerance only. Not those of softer springs: the points, which feel the other motions too, tell more of these.
+  !> `force` (n + springs) and `motion` (m) are those of the problem `extended`.
+  pure subroutine balance_springs(problem, extended, force, motion)
+    type(fuge_problem), intent(in) :: problem, extended
+    real(dp), intent(inout) :: force(:), motion(:)
+    logical :: on_spring(problem%mode_count())
+    real(dp) :: carried, length, terms
+    integer :: j, n, spring
+
+    n = problem%points()
+    on_spring = problem%motions_on_springs()
+    if (.not. any(on_spring)) return
+    length = BELOW*maxval(abs(matmul(extended%modes(:n, :), motion)))
+    spring = n
+    do j = 1, size(on_spring)
+      if (.not. on_spring(j)) cycle
+      spring = spring + 1
+      associate (stiffness => problem%motion_stiffness(j), load => problem%resultant(j), &
+                 arm => extended%modes(spring, j))
+        carried = compensated_dot(load, extended%modes(:n, j), force(:n))
+        terms = abs(load) + sum(abs(extended%modes(:n, j)*force(:n)))
+        if (arm*(terms/stiffness) > length) cycle
+        force(spring) = carried/arm
+        motion(j) = carried/stiffness
+      end associate
+    end do
+  end subroutine balance_springs
+
+  !> Make an error relative to the force `all_largest` relative to the largest one of those `of_points`.
+  pure subroutine scale_force_error(all_largest, of_points, force_error)
+    real(dp), intent(in) :: all_largest, of_points(:)
+    real(dp), intent(inout) :: force_error
+    real(dp) :: largest
+
+    largest = maxval(abs(of_points))
+    if (.not. (largest > 0.0_dp .and. all_largest > largest)) return
+    if (force_error*all_largest < largest) then
+      force_error = force_error*all_largest/largest
+    else
+      force_error = 1.0_dp
+    end if
+  end subroutine scale_force_error
 
   !> Where the message names the point of a spring, which the caller does not know, name the spring instead.
   pure subroutine name_springs(problem, info)
