@@ -228,10 +228,11 @@ contains
     cost%most = maxval(count(solutions%force > 0.0_dp, dim=1))
   end subroutine solve_all
 
+  !> Stop on an error; a warning of displacements that have lost digits is none.
   subroutine check(info)
     type(fuge_info), intent(in) :: info
 
-    if (info%status == 0) return
+    if (.not. info%failed()) return
     write (output_unit, '(a)') trim(info%message)
     error stop 'a structure was not solved'
   end subroutine check
