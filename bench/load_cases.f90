@@ -135,9 +135,9 @@ contains
     allocate (laws%compliance(links), source=compliance)
   end function even_bed
 
-  !> Random combinations, with factors from 0 to 1.5, of basic loads, and the `weight` of each deflection, every `step`th
-  !> degree of freedom from the first on. A basic load acts on a twentieth of them, with forces from -20 to `lift` times
-  !> 20.
+  !> Random combinations, with factors from 0 to 1.5, of basic loads, and the `weight` of each deflection, every
+  !> `step`th degree of freedom from the first on. A basic load acts on a twentieth of them, with forces from -20 to
+  !> `lift` times 20.
   subroutine combine(step, lift, weight, loads)
     integer, intent(in) :: step
     real(dp), intent(in) :: lift, weight

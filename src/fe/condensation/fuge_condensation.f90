@@ -357,8 +357,8 @@ contains
 
   !> Displacements of all degrees of freedom for the solutions of all load cases, as `recover` for each.
   !>
-  !> `loads` (degrees, cases) and `displacement` as for `pose_cases`; `u` (degrees, cases), length: NaN in the columns of
-  !> cases without a solution. info%residual is the largest of any case, FUGE_WARN_RESIDUAL if it exceeds 1e-10; the
+  !> `loads` (degrees, cases) and `displacement` as for `pose_cases`; `u` (degrees, cases), length: NaN in the columns
+  !> of cases without a solution. info%residual is the largest of any case, FUGE_WARN_RESIDUAL if it exceeds 1e-10; the
   !> report of such a case, if it had no warning, has this one. Errors, `u` unchanged but for FUGE_ERR_MEMORY:
   !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW.
   subroutine recover_cases(self, loads, solutions, u, info, displacement)
@@ -415,8 +415,8 @@ contains
     if (.not. info%failed()) call check_finite(solutions%motion(:size(self%resultant), k), 'motion', info)
   end subroutine check_recovered_case
 
-  !> Add the motions of case `k` to its displacements `u` (degrees), and find its residual: `info` has the largest one of
-  !> all cases. Error: FUGE_ERR_MEMORY.
+  !> Add the motions of case `k` to its displacements `u` (degrees), and find its residual: `info` has the largest one
+  !> of all cases. Error: FUGE_ERR_MEMORY.
   subroutine complete_case(self, load, solutions, k, u, info)
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(in) :: load(:)
@@ -608,7 +608,8 @@ contains
     call require_memory(stat, 'the displacements', info)
   end subroutine add_motions
 
-  !> The residual of K u = forces, with K itself and not its factor, as info%residual; a warning if it is large. `load` (degrees) external, `force` (n) of the contact.
+  !> The residual of K u = forces, with K itself and not its factor, as info%residual; a warning if it is large. `load`
+  !> (degrees) external, `force` (n) of the contact.
   subroutine find_residual(self, load, force, u, info)
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(in) :: load(:), force(:), u(:)

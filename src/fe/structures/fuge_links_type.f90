@@ -226,8 +226,8 @@ contains
     if (.not. info%failed()) problem = posed
   end subroutine pose
 
-  !> As `pose`, of many load cases: external `loads`, (degrees, cases), and perhaps displacements of the supports, (fixed,
-  !> cases). Errors: those of `pose_cases` of fuge_condensed.
+  !> As `pose`, of many load cases: external `loads`, (degrees, cases), and perhaps displacements of the supports,
+  !> (fixed, cases). Errors: those of `pose_cases` of fuge_condensed.
   subroutine pose_cases(self, condensed, loads, problem, cases, info, displacement)
     class(fuge_links), intent(in) :: self
     type(fuge_condensed), intent(in) :: condensed

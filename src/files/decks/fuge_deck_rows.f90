@@ -20,11 +20,11 @@ contains
   !> The links of a deck as those of a structure: link k is deck%links(k), with its name.
   !>
   !> `node` and `direction` (rows of the stiffness matrix): the names of the rows, as fuge_read_stiffness returns them.
-  !> Programs leave out the rows of degrees of freedom that are held: a row that the matrix does not have must be held in
-  !> every load case, or, if there is none, by the supports of the model.
+  !> Programs leave out the rows of degrees of freedom that are held: a row that the matrix does not have must be held
+  !> in every load case, or, if there is none, by the supports of the model.
   !> Errors, `links` unchanged: FUGE_ERR_SIZE without links, or if node and direction differ in length; FUGE_ERR_DOF for
-  !> a row that is named twice, for a link that no row moves, and for one at a degree of freedom that has no row although
-  !> it is not held; FUGE_ERR_MEMORY.
+  !> a row that is named twice, for a link that no row moves, and for one at a degree of freedom that has no row
+  !> although it is not held; FUGE_ERR_MEMORY.
   subroutine fuge_deck_links(deck, node, direction, links, info)
     type(fuge_deck), intent(in) :: deck
     integer, intent(in) :: node(:), direction(:)

@@ -62,8 +62,8 @@ module fuge_scaled_springs
 
 contains
 
-  !> Choose the units for `problem`, on `operator`, which is without springs; `extended` is the problem with a point more
-  !> for each spring on a motion. `possible` unless a spring is so soft that its motion is all but free. Errors:
+  !> Choose the units for `problem`, on `operator`, which is without springs; `extended` is the problem with a point
+  !> more for each spring on a motion. `possible` unless a spring is so soft that its motion is all but free. Errors:
   !> FUGE_ERR_MEMORY, those of the operator.
   subroutine set(self, operator, problem, extended, possible, info)
     class(scaled_springs), intent(inout) :: self
@@ -111,8 +111,8 @@ contains
     unit = set_exponent(1.0_dp, exponent(unit))
   end function similar_unit
 
-  !> About the compliance of the bodies, the geometric mean of the displacements by forces of alternating signs; of rigid
-  !> bodies the largest one of their points, 0 if all are hard. Errors: FUGE_ERR_MEMORY, those of the operator.
+  !> About the compliance of the bodies, the geometric mean of the displacements by forces of alternating signs; of
+  !> rigid bodies the largest one of their points, 0 if all are hard. Errors: FUGE_ERR_MEMORY, those of the operator.
   subroutine find_usual_compliance(operator, problem, usual, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
