@@ -453,7 +453,7 @@ int fuge_links_get_gaps(const fuge_links *links, double *gap);
 
 /* The links become the contact points of the body, in place of those of fuge_body_set_contact;
  * their degrees of freedom are checked by fuge_body_condense.  Those that supports hold at both
- * ends move with these alone.  Links that are added later do not count.  FUGE_ERR_CALL_ORDER
+ * ends move with these alone.  After further links call it again.  FUGE_ERR_CALL_ORDER
  * without links, FUGE_ERR_MEMORY. */
 int fuge_body_set_links(fuge_body *body, const fuge_links *links);
 

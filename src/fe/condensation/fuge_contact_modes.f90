@@ -46,7 +46,9 @@ contains
     if (stat /= 0 .or. m < 1) return
     do k = 1, m
       unit(k) = maxval(abs(rigid_modes(:, k))*scale)
-      r(:, k) = modes(:, k)/(unit(k)*point_scale)
+      ! A point that is held has no scale, and resists nothing.
+      r(:, k) = 0.0_dp
+      where (point_scale > 0.0_dp) r(:, k) = modes(:, k)/(unit(k)*point_scale)
     end do
     call factorise_pivoted(r, tau, order, stat)
     if (stat /= 0) return
