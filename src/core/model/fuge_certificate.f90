@@ -42,7 +42,7 @@ module fuge_certificate
     !> Equilibrium, equation (11): R^T f - w + S q; prescribed motions that q does not have.
     real(dp) :: equilibrium = huge(1.0_dp)
     !> Forces that dwarf the data: lengths that they leave open, or that are their rounding, relative to gaps, plays and
-    !> the displacement by the load. 0 where that is no more than a thousandth.
+    !> the displacement by the load, of the points where these forces are. 0 where that is no more than a thousandth.
     real(dp) :: unresolved = huge(1.0_dp)
   contains
     procedure :: worst
@@ -583,7 +583,8 @@ contains
 
   !> The lengths that forces leave open where they dwarf the data, as a fraction of the lengths in the data; 0 up to
   !> RESOLVED. Each point counts with its share of the forces, as in the work that they do: the terms of displacements
-  !> may be as large at a soft point beside a stiff one, but not where the forces are.
+  !> may be as large at a soft point beside a stiff one, but not where the forces are. The lengths are those of the
+  !> points with the large forces: a wide gap elsewhere excuses nothing, but for RESOLVED of it, where these have none.
   !>
   !> `error` (n) of equation (9), `elastic` (n) the terms of A f, `rigid_magnitude` (n) those of the motions.
   function unresolved_lengths(problem, solution, error, elastic, rigid_magnitude, included, space) result(violation)
@@ -621,6 +622,8 @@ contains
                    epsilon(excess)*elastic(k), law%stop_distance(solution%force(k), solution%gap(k)))
       open = open + merge(abs(solution%force(k)), 0.0_dp, included(k))/largest/total*excess
     end do
+    length = max(RESOLVED*length, data_length(problem, solution%force, elastic, &
+                                              included .and. abs(solution%force) > BESIDE*largest, space))
     violation = relative(space%total(open), length)
     if (violation <= RESOLVED) violation = 0.0_dp
   end function unresolved_lengths
