@@ -34,6 +34,8 @@ module fuge_bulk_cards
   type, public :: card_reader
     type(input_deck) :: deck
     type(bulk_card) :: begun
+    !> What stands in the last field of the last line, the marker of its continuation.
+    character(len=8), private :: marker = ''
     integer, private :: status = 0
     !> After ENDDATA.
     logical, private :: ended = .false.
@@ -111,7 +113,10 @@ contains
         call split_bulk_line(file%content(file%first:file%first + length - 1), fields)
         if (fields%skipped) cycle
         call check_fields(file%content(file%first:file%first + length - 1), fields, reader%deck, info)
+        if (fields%continues .and. .not. info%failed()) &
+          call check_marker(file%content(file%first:file%first + length - 1), reader, info)
         if (info%failed()) return
+        reader%marker = last_marker(file%content(file%first:file%first + length - 1))
         if (fields%continues) then
           call append_fields(file%content(file%first:file%first + length - 1), fields, card, reader%status)
         else if (card%name == '') then
@@ -145,8 +150,54 @@ contains
       call deck%refuse('tabs between fixed fields are not read: write blanks, or commas', info)
     else if (fields%excess) then
       call deck%refuse('there are more than 8 fields: go on in the next line', info)
+    else if (scan(fields%keyword(1:1), '=') > 0 .or. index(adjustl(line), '*(') == 1) then
+      call deck%refuse('cards that repeat others by = and *() are not read: write them out', info)
+    else if (index(trim(fields%keyword), ' ') > 0 .and. .not. fields%continues) then
+      call deck%refuse('the name of the card has a blank inside: fields are eight columns wide, or have commas between ' &
+                       //'them', info)
     end if
   end subroutine check_fields
+
+  !> Refuse a continuation whose marker is not that of the line before (FUGE_ERR_FILE): it belongs to another card.
+  pure subroutine check_marker(line, reader, info)
+    character(len=*), intent(in) :: line
+    type(card_reader), intent(in) :: reader
+    type(fuge_info), intent(inout) :: info
+    character(len=8) :: own
+
+    own = adjustl(line(:min(len(line), 8, scan(line//',', ',') - 1)))
+    if (bare_marker(own) == '' .or. bare_marker(own) == bare_marker(reader%marker)) return
+    call reader%deck%refuse('the continuation '//trim(own)//' is not below the line that ends with its marker: put ' &
+                            //'it there', info)
+  end subroutine check_marker
+
+  !> A marker in upper case without its first sign.
+  pure function bare_marker(marker) result(bare)
+    character(len=*), intent(in) :: marker
+    character(len=8) :: bare
+
+    bare = upper_case(adjustl(marker))
+    if (scan(bare(1:1), '+*') > 0) bare = adjustl(bare(2:))
+  end function bare_marker
+
+  !> The tenth field of a line: behind the ninth comma, or in the columns 73 to 80.
+  pure function last_marker(line) result(marker)
+    character(len=*), intent(in) :: line
+    character(len=8) :: marker
+    integer :: comma, first
+
+    marker = ''
+    if (index(line(:min(len(line), 9)), ',') == 0) then
+      if (len(line) > 72) marker = adjustl(line(73:min(len(line), 80)))
+      return
+    end if
+    first = 1
+    do comma = 1, LINE_FIELDS + 1
+      if (index(line(first:), ',') == 0) return
+      first = first + index(line(first:), ',')
+    end do
+    marker = adjustl(line(first:first - 2 + index(line(first:)//',', ',')))
+  end function last_marker
 
   pure subroutine move_card(from, to)
     type(bulk_card), intent(inout) :: from, to
@@ -179,6 +230,9 @@ contains
       end if
       associate (file => deck%file(deck%depth))
         length = index(file%content(file%first:file%last)//'$', '$') - 1
+        ! The other half of a line end of two characters.
+        if (index(file%content(file%first:file%first + length - 1), achar(13)) == length .and. length > 0) &
+          length = length - 1
         call path_of_include(file%content(file%first:file%first + length - 1), path)
       end associate
       if (.not. allocated(path)) return
@@ -203,10 +257,6 @@ contains
     if (upper_case(line(first:first + 6)) /= 'INCLUDE' .or. scan(line(first + 7:first + 7), ' ='//QUOTES) == 0) return
     path = trim(adjustl(line(first + 7:)))
     if (index(path, '=') == 1) path = trim(adjustl(path(2:)))
-    last = len(path)
-    if (last > 0) then
-      if (path(last:last) == achar(13)) path = trim(path(:last - 1))
-    end if
     last = len(path)
     if (last == 0) path = achar(0)
     if (last == 0) return

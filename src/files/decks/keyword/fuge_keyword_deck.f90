@@ -44,7 +44,7 @@ module fuge_keyword_deck
     character(len=3) :: boundary_op = '', load_op = ''
     !> What this step, or an earlier one that is no load case, has that is not read: an error of the next load case.
     type(fuge_info) :: unread
-    !> All three as they were before a step with PERTURBATION, after which they are so again.
+    !> All three as they were before the step: after a linear perturbation they are so again.
     logical :: perturbation = .false.
     type(condition_table) :: held_before, forces_before
     type(fuge_info) :: unread_before
@@ -229,8 +229,12 @@ contains
       call end_step(deck, state, info)
     case ('STATIC')
       state%static = .true.
-    case ('FREQUENCY', 'BUCKLE', 'DYNAMIC', 'MODALDYNAMIC', 'STEADYSTATEDYNAMICS', 'HEATTRANSFER', 'COMPLEXFREQUENCY', &
-          'SUBSTRUCTUREGENERATE', 'MATRIXGENERATE', 'GREEN')
+    case ('FREQUENCY', 'BUCKLE', 'MODALDYNAMIC', 'STEADYSTATEDYNAMICS', 'COMPLEXFREQUENCY', 'RANDOMRESPONSE', &
+          'RESPONSESPECTRUM', 'SUBSTRUCTUREGENERATE', 'MATRIXGENERATE', 'GREEN', 'SENSITIVITY')
+      ! These are linear perturbations, also without the parameter of *STEP.
+      state%other_procedure = .true.
+      state%perturbation = .true.
+    case ('DYNAMIC', 'HEATTRANSFER', 'ELECTROMAGNETICS', 'NOANALYSIS')
       state%other_procedure = .true.
     case ('GAP')
       call fuge_mesh_element_set(mesh, trim(input%parameter('ELSET')), state%elements, info)
@@ -290,10 +294,10 @@ contains
     call end_step(deck, state, info)
     if (state%step == 0) call state%held%copy_to(deck%supports, state%status)
     state%perturbation = input%has('PERTURBATION')
+    state%held_before = state%held
+    state%forces_before = state%forces
+    state%unread_before = state%unread
     if (state%perturbation) then
-      state%held_before = state%held
-      state%forces_before = state%forces
-      state%unread_before = state%unread
       call keep_refusal(input, 'a *STEP with PERTURBATION is not read: contact depends on the whole load', state%unread)
     end if
     state%step = state%step + 1
