@@ -159,7 +159,8 @@ contains
     from%count = 0
   end subroutine move_card
 
-  !> The next line of the deck and of the files that it includes, and its length without the comment after $.
+  !> The next line of the deck and of the files that it includes, and its length without the comment after $ and
+  !> without the carriage return at its end.
   !> Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
   subroutine next_bulk_line(deck, exists, length, info)
     type(input_deck), intent(inout) :: deck
@@ -179,6 +180,10 @@ contains
       end if
       associate (file => deck%file(deck%depth))
         length = index(file%content(file%first:file%last)//'$', '$') - 1
+        do while (length > 0)
+          if (file%content(file%first + length - 1:file%first + length - 1) /= achar(13)) exit
+          length = length - 1
+        end do
         call path_of_include(file%content(file%first:file%first + length - 1), path)
       end associate
       if (.not. allocated(path)) return
@@ -203,10 +208,6 @@ contains
     if (upper_case(line(first:first + 6)) /= 'INCLUDE' .or. scan(line(first + 7:first + 7), ' ='//QUOTES) == 0) return
     path = trim(adjustl(line(first + 7:)))
     if (index(path, '=') == 1) path = trim(adjustl(path(2:)))
-    last = len(path)
-    if (last > 0) then
-      if (path(last:last) == achar(13)) path = trim(path(:last - 1))
-    end if
     last = len(path)
     if (last == 0) path = achar(0)
     if (last == 0) return
