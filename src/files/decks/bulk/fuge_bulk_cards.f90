@@ -6,6 +6,7 @@ module fuge_bulk_cards
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   use fuge_text_columns, only: after_blanks
+  use fuge_text_numbers, only: quoted
   implicit none
   private
 
@@ -35,6 +36,8 @@ module fuge_bulk_cards
     type(input_deck) :: deck
     type(bulk_card) :: begun
     integer, private :: status = 0
+    !> What stands behind the fields of the last line, the marker of its continuation.
+    character(len=8), private :: marker = ''
     !> After ENDDATA.
     logical, private :: ended = .false.
   end type card_reader
@@ -111,7 +114,9 @@ contains
         call split_bulk_line(file%content(file%first:file%first + length - 1), fields)
         if (fields%skipped) cycle
         call check_fields(file%content(file%first:file%first + length - 1), fields, reader%deck, info)
+        if (fields%continues) call check_continuation(fields, reader, info)
         if (info%failed()) return
+        reader%marker = fields%marker
         if (fields%continues) then
           call append_fields(file%content(file%first:file%first + length - 1), fields, card, reader%status)
         else if (card%name == '') then
@@ -145,8 +150,36 @@ contains
       call deck%refuse('tabs between fixed fields are not read: write blanks, or commas', info)
     else if (fields%excess) then
       call deck%refuse('there are more than 8 fields: go on in the next line', info)
+    else if (index(fields%begin, '=') == 1 .or. index(fields%begin, '*(') == 1) then
+      call deck%refuse('replication by = and *( is not read: write each card', info)
+    else if (index(trim(fields%keyword), ' ') > 0 .and. .not. fields%continues .and. fields%keyword(:5) /= 'begin') then
+      call deck%refuse('the name '//quoted(trim(fields%begin))//' has a blank in it: a field has 8 columns', info)
     end if
   end subroutine check_fields
+
+  !> Refuse a continuation with a marker that the line above does not have in its field 10 (FUGE_ERR_FILE): programs
+  !> look for its card elsewhere. What the markers begin with has no meaning, + or *.
+  pure subroutine check_continuation(fields, reader, info)
+    type(bulk_fields), intent(in) :: fields
+    type(card_reader), intent(in) :: reader
+    type(fuge_info), intent(inout) :: info
+    character(len=8) :: here
+
+    if (info%failed()) return
+    here = bare_marker(fields%begin)
+    if (here == '' .or. here == bare_marker(reader%marker) .or. here == upper_case(adjustl(reader%marker(2:)))) return
+    call reader%deck%refuse('the continuation '//trim(fields%begin)//' does not follow its card: put it directly ' &
+                            //'below, with its marker in field 10, or begin it with + alone', info)
+  end subroutine check_continuation
+
+  !> A marker in upper case and without the + or * before it.
+  pure function bare_marker(marker) result(bare)
+    character(len=8), intent(in) :: marker
+    character(len=8) :: bare
+
+    bare = upper_case(marker)
+    if (scan(bare(1:1), '+*') > 0) bare = adjustl(bare(2:))
+  end function bare_marker
 
   pure subroutine move_card(from, to)
     type(bulk_card), intent(inout) :: from, to
