@@ -10,7 +10,7 @@ module fuge_deck_tables
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table, LARGEST_DIRECTION
   use fuge_status, only: fuge_info, report, FUGE_ERR_FILE, FUGE_ERR_MEMORY
-  use fuge_text_columns, only: begin_columns, next_column
+  use fuge_text_columns, only: begin_columns, next_column, next_name
   use fuge_text_numbers, only: quoted
   use fuge_text_reader, only: text_file
   implicit none
@@ -140,7 +140,7 @@ contains
       end if
       if (allocated(reason)) return
     end do
-    call next_column(line, k, first, last, separator)
+    call next_name(line, k, first, last, separator)
     if (maxval(abs(value(3:5))) > 0.0_dp) value(3:5) = value(3:5)/maxval(abs(value(3:5)))
     if (k <= len(line)) then
       reason = 'more columns than '//text(LINK_COLUMNS)//' and a name'
@@ -227,14 +227,14 @@ contains
     n = -1
     k = begin_columns(line)
     do while (k <= len(line))
-      call next_column(line, k, first, last, separator)
+      call next_name(line, k, first, last, separator)
       n = n + 1
     end do
     allocate (names(n))
     k = begin_columns(line)
-    call next_column(line, k, first, last, separator)
+    call next_name(line, k, first, last, separator)
     do i = 1, n
-      call next_column(line, k, first, last, separator)
+      call next_name(line, k, first, last, separator)
       names(i) = line(first:last)
       if (.not. is_heading(line) .or. last < first) names(i) = 'case '//text(before + i)
     end do

@@ -12,6 +12,8 @@ module fuge_bulk_fields
   type, public :: bulk_fields
     !> The first field in lower case, without *.
     character(len=8) :: keyword = ''
+    !> The first field as it is, and what stands behind the data fields: markers of continuations.
+    character(len=8) :: begin = '', marker = ''
     !> The line continues the one before.
     logical :: continues = .false.
     !> The line is blank or a comment.
@@ -52,7 +54,8 @@ contains
     integer :: star
 
     fields%count = merge(4, 8, index(first_field, '*') > 0)
-    fields%keyword = lower_case(adjustl(first_field))
+    fields%begin = adjustl(first_field)
+    fields%keyword = lower_case(fields%begin)
     fields%continues = fields%keyword == '' .or. scan(fields%keyword(1:1), '+*') > 0
     star = index(fields%keyword, '*')
     if (star > 0) fields%keyword(star:) = ''
@@ -67,13 +70,14 @@ contains
     do k = 1, fields%count
       call trim_field(line, 9 + width*(k - 1), min(8 + width*k, len(line)), fields%first(k), fields%last(k))
     end do
+    if (len(line) > 72) fields%marker = adjustl(line(73:min(80, len(line))))
   end subroutine split_fixed
 
   pure subroutine split_free(line, comma, fields)
     character(len=*), intent(in) :: line
     integer, intent(in) :: comma
     type(bulk_fields), intent(inout) :: fields
-    integer :: begin, finish, k
+    integer :: begin, finish, k, separator
 
     begin = comma + 1
     do k = 1, fields%count
@@ -83,7 +87,10 @@ contains
       call trim_field(line, begin, finish, fields%first(k), fields%last(k))
       begin = finish + 2
     end do
-    if (begin <= len(line)) fields%excess = is_beyond_marker(line(begin:))
+    if (begin > len(line)) return
+    fields%excess = is_beyond_marker(line(begin:))
+    separator = index(line(begin:)//',', ',')
+    fields%marker = adjustl(line(begin:begin + separator - 2))
   end subroutine split_free
 
   !> Is there more behind the last data field than the marker of a continuation, which does not begin like a number?

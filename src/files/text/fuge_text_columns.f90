@@ -4,7 +4,7 @@ module fuge_text_columns
   implicit none
   private
 
-  public :: after_blanks, begin_columns, find_column, next_column, separator_name, split_columns
+  public :: after_blanks, begin_columns, find_column, next_column, next_name, separator_name, split_columns
 
   !> What follows a column.
   integer, parameter, public :: SEPARATOR_NONE = 0
@@ -117,6 +117,23 @@ contains
     separator = merge(SEPARATOR_COMMA, SEPARATOR_SEMICOLON, letter_kind == COMMA)
     k = next_text(line, k + 1)
   end subroutine next_column
+
+  !> The next column as of `next_column`, but one between double quotes goes on to the second, with all between them.
+  pure subroutine next_name(line, k, first, last, separator)
+    character(len=*), intent(in) :: line
+    integer, intent(inout) :: k
+    integer, intent(out) :: first, last, separator
+    integer :: begin, quote
+
+    begin = k
+    quote = 0
+    if (k < len(line)) then
+      if (line(k:k) == '"') quote = index(line(k + 1:), '"')
+    end if
+    k = k + quote
+    call next_column(line, k, first, last, separator)
+    first = begin
+  end subroutine next_name
 
   !> Find the columns of a line, as `next_column` does.
   pure subroutine split_columns(line, columns)

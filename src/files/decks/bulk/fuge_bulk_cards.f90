@@ -6,6 +6,7 @@ module fuge_bulk_cards
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
   use fuge_text_columns, only: after_blanks
+  use fuge_text_numbers, only: quoted
   implicit none
   private
 
@@ -37,6 +38,8 @@ module fuge_bulk_cards
     !> What stands in the last field of the last line, the marker of its continuation.
     character(len=8), private :: marker = ''
     integer, private :: status = 0
+    !> What stands behind the fields of the last line, the marker of its continuation.
+    character(len=8), private :: marker = ''
     !> After ENDDATA.
     logical, private :: ended = .false.
   end type card_reader
@@ -113,10 +116,9 @@ contains
         call split_bulk_line(file%content(file%first:file%first + length - 1), fields)
         if (fields%skipped) cycle
         call check_fields(file%content(file%first:file%first + length - 1), fields, reader%deck, info)
-        if (fields%continues .and. .not. info%failed()) &
-          call check_marker(file%content(file%first:file%first + length - 1), reader, info)
+        if (fields%continues) call check_continuation(fields, reader, info)
         if (info%failed()) return
-        reader%marker = last_marker(file%content(file%first:file%first + length - 1))
+        reader%marker = fields%marker
         if (fields%continues) then
           call append_fields(file%content(file%first:file%first + length - 1), fields, card, reader%status)
         else if (card%name == '') then
@@ -150,54 +152,36 @@ contains
       call deck%refuse('tabs between fixed fields are not read: write blanks, or commas', info)
     else if (fields%excess) then
       call deck%refuse('there are more than 8 fields: go on in the next line', info)
-    else if (scan(fields%keyword(1:1), '=') > 0 .or. index(adjustl(line), '*(') == 1) then
-      call deck%refuse('cards that repeat others by = and *() are not read: write them out', info)
-    else if (index(trim(fields%keyword), ' ') > 0 .and. .not. fields%continues) then
-      call deck%refuse('the name of the card has a blank inside: fields are eight columns wide, or have commas between ' &
-                       //'them', info)
+    else if (index(fields%begin, '=') == 1 .or. index(fields%begin, '*(') == 1) then
+      call deck%refuse('replication by = and *( is not read: write each card', info)
+    else if (index(trim(fields%keyword), ' ') > 0 .and. .not. fields%continues .and. fields%keyword(:5) /= 'begin') then
+      call deck%refuse('the name '//quoted(trim(fields%begin))//' has a blank in it: a field has 8 columns', info)
     end if
   end subroutine check_fields
 
-  !> Refuse a continuation whose marker is not that of the line before (FUGE_ERR_FILE): it belongs to another card.
-  pure subroutine check_marker(line, reader, info)
-    character(len=*), intent(in) :: line
+  !> Refuse a continuation with a marker that the line above does not have in its field 10 (FUGE_ERR_FILE): programs
+  !> look for its card elsewhere. What the markers begin with has no meaning, + or *.
+  pure subroutine check_continuation(fields, reader, info)
+    type(bulk_fields), intent(in) :: fields
     type(card_reader), intent(in) :: reader
     type(fuge_info), intent(inout) :: info
-    character(len=8) :: own
+    character(len=8) :: here
 
-    own = adjustl(line(:min(len(line), 8, scan(line//',', ',') - 1)))
-    if (bare_marker(own) == '' .or. bare_marker(own) == bare_marker(reader%marker)) return
-    call reader%deck%refuse('the continuation '//trim(own)//' is not below the line that ends with its marker: put ' &
-                            //'it there', info)
-  end subroutine check_marker
+    if (info%failed()) return
+    here = bare_marker(fields%begin)
+    if (here == '' .or. here == bare_marker(reader%marker) .or. here == upper_case(adjustl(reader%marker(2:)))) return
+    call reader%deck%refuse('the continuation '//trim(fields%begin)//' does not follow its card: put it directly ' &
+                            //'below, with its marker in field 10, or begin it with + alone', info)
+  end subroutine check_continuation
 
-  !> A marker in upper case without its first sign.
+  !> A marker in upper case and without the + or * before it.
   pure function bare_marker(marker) result(bare)
-    character(len=*), intent(in) :: marker
+    character(len=8), intent(in) :: marker
     character(len=8) :: bare
 
-    bare = upper_case(adjustl(marker))
+    bare = upper_case(marker)
     if (scan(bare(1:1), '+*') > 0) bare = adjustl(bare(2:))
   end function bare_marker
-
-  !> The tenth field of a line: behind the ninth comma, or in the columns 73 to 80.
-  pure function last_marker(line) result(marker)
-    character(len=*), intent(in) :: line
-    character(len=8) :: marker
-    integer :: comma, first
-
-    marker = ''
-    if (index(line(:min(len(line), 9)), ',') == 0) then
-      if (len(line) > 72) marker = adjustl(line(73:min(len(line), 80)))
-      return
-    end if
-    first = 1
-    do comma = 1, LINE_FIELDS + 1
-      if (index(line(first:), ',') == 0) return
-      first = first + index(line(first:), ',')
-    end do
-    marker = adjustl(line(first:first - 2 + index(line(first:)//',', ',')))
-  end function last_marker
 
   pure subroutine move_card(from, to)
     type(bulk_card), intent(inout) :: from, to
@@ -210,7 +194,8 @@ contains
     from%count = 0
   end subroutine move_card
 
-  !> The next line of the deck and of the files that it includes, and its length without the comment after $.
+  !> The next line of the deck and of the files that it includes, and its length without the comment after $ and
+  !> without the carriage return at its end.
   !> Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
   subroutine next_bulk_line(deck, exists, length, info)
     type(input_deck), intent(inout) :: deck
@@ -230,9 +215,10 @@ contains
       end if
       associate (file => deck%file(deck%depth))
         length = index(file%content(file%first:file%last)//'$', '$') - 1
-        ! The other half of a line end of two characters.
-        if (index(file%content(file%first:file%first + length - 1), achar(13)) == length .and. length > 0) &
+        do while (length > 0)
+          if (file%content(file%first + length - 1:file%first + length - 1) /= achar(13)) exit
           length = length - 1
+        end do
         call path_of_include(file%content(file%first:file%first + length - 1), path)
       end associate
       if (.not. allocated(path)) return

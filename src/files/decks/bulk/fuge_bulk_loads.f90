@@ -51,6 +51,7 @@ contains
     if (card%word(2) == 'THRU') then
       call card%whole(1, 'ID1', 1, range(1), reason)
       call card%whole(3, 'ID2', 1, range(2), reason)
+      call check_range_end(card, 3, reason)
       if (.not. allocated(reason)) call points%append(card%place, range, [real(dp) ::], status)
       return
     end if
@@ -60,6 +61,19 @@ contains
       if (.not. allocated(reason)) call points%append(card%place, [range(1), range(1)], [real(dp) ::], status)
     end do
   end subroutine read_scalar_points
+
+  !> Refuse fields behind the end of a range with THRU, which is field k.
+  pure subroutine check_range_end(card, k, reason)
+    type(bulk_card), intent(in) :: card
+    integer, intent(in) :: k
+    character(len=:), allocatable, intent(inout) :: reason
+    integer :: i
+
+    do i = k + 1, card%count
+      if (card%has(i) .and. .not. allocated(reason)) reason = quoted(trim(card%word(i)))//' stands behind the end of ' &
+        //'THRU: write another card'
+    end do
+  end subroutine check_range_end
 
   !> FORCE and MOMENT: set, node and first direction, 1 or 4; the components.
   pure subroutine read_force(card, forces, reason, status)
@@ -163,6 +177,7 @@ contains
     if (card%word(4) == 'THRU') then
       call card%whole(3, 'G1', 1, first, reason)
       call card%whole(5, 'G2', 1, last, reason)
+      call check_range_end(card, 5, reason)
       if (allocated(reason)) return
       do k = 1, merge(points%count, 0, directions == 0)
         do point = max(first, points%whole(1, k)), min(last, points%whole(2, k))

@@ -103,6 +103,7 @@ contains
     bulk = begins_bulk(line)
     if (bulk) return
     call split_command(line, command, value)
+    command = full_command(command)
     select case (command)
     case ('SUBCASE')
       if (state%inside) call keep_subcase(state, subcases, reason)
@@ -121,6 +122,20 @@ contains
         reason = trim(command)//' is not read: give each load case as a SUBCASE with LOAD = and SPC ='
     end select
   end subroutine read_command
+
+  !> The command of which this is an abbreviation, of four letters or more; else the command itself.
+  pure function full_command(command) result(full)
+    character(len=WORD_LENGTH), intent(in) :: command
+    character(len=WORD_LENGTH) :: full
+    integer :: k
+
+    full = command
+    if (len_trim(command) < 4 .or. command == 'LOAD' .or. any(command == REFUSED)) return
+    if (index('SUBCASE', trim(command)) == 1) full = 'SUBCASE'
+    do k = 1, size(REFUSED)
+      if (full == command .and. index(REFUSED(k), trim(command)) == 1) full = REFUSED(k)
+    end do
+  end function full_command
 
   !> The command of a line in upper case, and what stands behind it and behind =.
   pure subroutine split_command(line, command, value)

@@ -9,7 +9,7 @@ module fuge_keyword_conditions
   use fuge_number_text, only: text
   use fuge_row_table, only: row_table
   use fuge_status, only: fuge_info
-  use fuge_text_columns, only: begin_columns, next_column
+  use fuge_text_columns, only: begin_columns, next_column, next_name
   use fuge_text_numbers, only: quoted
   implicit none
   private
@@ -39,7 +39,7 @@ contains
     integer :: digits, first, k, last, last_direction, direction, separator
 
     k = begin_columns(line)
-    call next_column(line, k, first, last, separator)
+    call next_name(line, k, first, last, separator)
     call find_nodes(line(first:last), mesh, numbers, nodes, reason)
     if (allocated(reason)) return
     call next_column(line, k, first, last, separator)
@@ -98,7 +98,7 @@ contains
     integer :: direction, first, i, k, last, separator
 
     k = begin_columns(line)
-    call next_column(line, k, first, last, separator)
+    call next_name(line, k, first, last, separator)
     call find_nodes(line(first:last), mesh, numbers, nodes, reason)
     call next_column(line, k, first, last, separator)
     call read_label(line(first:last), 'direction', 1, DIRECTIONS, direction, reason)

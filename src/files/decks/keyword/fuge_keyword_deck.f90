@@ -1,7 +1,7 @@
 !> Decks of Abaqus and CalculiX: gap elements, supports, and steps as load cases.
 module fuge_keyword_deck
   use fuge_condition_table, only: condition_table
-  use fuge_deck_type, only: fuge_deck, fuge_deck_case
+  use fuge_deck_type, only: fuge_deck, fuge_deck_case, place_text
   use fuge_input_deck, only: input_deck, upper_case, LINE_DATA, LINE_END, LINE_KEYWORD
   use fuge_keyword_conditions, only: read_boundary_line, read_load_line
   use fuge_keyword_gaps, only: gap_line, is_gap, make_gap_link, read_gap_line
@@ -44,13 +44,16 @@ module fuge_keyword_deck
     character(len=3) :: boundary_op = '', load_op = ''
     !> What this step, or an earlier one that is no load case, has that is not read: an error of the next load case.
     type(fuge_info) :: unread
-    !> All three as they were before the step: after a linear perturbation they are so again.
+    !> All three as they were before the step; after one of perturbations, by PERTURBATION or by its procedure, they
+    !> are so again.
     logical :: perturbation = .false.
     type(condition_table) :: held_before, forces_before
     type(fuge_info) :: unread_before
     type(condition_table) :: held, forces
     !> Elements of the *GAP, indices in the mesh, and which elements have one.
     integer, allocatable :: elements(:)
+    !> Place of the last *GAP.
+    integer :: gap_place(2) = 0
     logical, allocatable :: has_gap(:)
     type(row_table) :: numbers
     integer :: links = 0, cases = 0, status = 0
@@ -140,6 +143,7 @@ contains
       if (info%failed() .or. state%status /= 0) return
       if (line_kind == LINE_END) exit
     end do
+    call check_gap_data(input, state, info)
     call end_step(deck, state, info)
     ! Without a step the supports are still to be kept.
     if (state%step == 0) call state%held%copy_to(deck%supports, state%status)
@@ -216,6 +220,8 @@ contains
     character(len=WORD_LENGTH) :: word
     logical :: after_gap
 
+    call check_gap_data(input, state, info)
+    if (info%failed()) return
     after_gap = state%after_gap
     state%after_gap = input%keyword == 'GAP'
     state%content = DATA_SKIPPED
@@ -230,16 +236,18 @@ contains
     case ('STATIC')
       state%static = .true.
     case ('FREQUENCY', 'BUCKLE', 'MODALDYNAMIC', 'STEADYSTATEDYNAMICS', 'COMPLEXFREQUENCY', 'RANDOMRESPONSE', &
-          'RESPONSESPECTRUM', 'SUBSTRUCTUREGENERATE', 'MATRIXGENERATE', 'GREEN', 'SENSITIVITY')
-      ! These are linear perturbations, also without the parameter of *STEP.
+          'RESPONSESPECTRUM', 'SUBSTRUCTUREGENERATE', 'MATRIXGENERATE', 'GREEN')
       state%other_procedure = .true.
       state%perturbation = .true.
-    case ('DYNAMIC', 'HEATTRANSFER', 'ELECTROMAGNETICS', 'NOANALYSIS')
+    case ('DYNAMIC', 'DYNAMICTEMPERATURE-DISPLACEMENT', 'HEATTRANSFER', 'MASSDIFFUSION', 'STEADYSTATETRANSPORT', &
+          'DIRECTCYCLIC', 'ANNEAL', 'COUPLEDTHERMAL-ELECTRICAL', 'ELECTROMAGNETIC', 'ELECTROMAGNETICS', 'CFD', &
+          'NOANALYSIS', 'SENSITIVITY', 'FEASIBLEDIRECTION', 'ROBUSTDESIGN', 'CRACKPROPAGATION')
       state%other_procedure = .true.
     case ('GAP')
       call fuge_mesh_element_set(mesh, trim(input%parameter('ELSET')), state%elements, info)
       if (info%failed()) call refuse_set(input, info)
       state%content = DATA_GAP
+      state%gap_place = input%place()
     case ('BOUNDARY')
       call begin_conditions(input, state%boundary_op, state%held, state%unread, info)
       ! Supports of the model are those of all load cases.
@@ -270,6 +278,18 @@ contains
     end select
   end subroutine begin_block
 
+  !> Refuse a *GAP whose data line has not come (FUGE_ERR_FILE).
+  pure subroutine check_gap_data(input, state, info)
+    type(input_deck), intent(in) :: input
+    type(deck_state), intent(in) :: state
+    type(fuge_info), intent(inout) :: info
+    character(len=:), allocatable :: place
+
+    if (state%content /= DATA_GAP .or. info%failed()) return
+    call place_text(input%paths, state%gap_place(1), state%gap_place(2), place)
+    call report(info, FUGE_ERR_FILE, place//': *GAP: its data line is missing')
+  end subroutine check_gap_data
+
   !> Replace the message for a set that the mesh does not have.
   pure subroutine refuse_set(input, info)
     type(input_deck), intent(in) :: input
@@ -297,9 +317,8 @@ contains
     state%held_before = state%held
     state%forces_before = state%forces
     state%unread_before = state%unread
-    if (state%perturbation) then
+    if (state%perturbation) &
       call keep_refusal(input, 'a *STEP with PERTURBATION is not read: contact depends on the whole load', state%unread)
-    end if
     state%step = state%step + 1
     state%in_step = .true.
     state%static = .false.
