@@ -35,8 +35,6 @@ module fuge_bulk_cards
   type, public :: card_reader
     type(input_deck) :: deck
     type(bulk_card) :: begun
-    !> What stands in the last field of the last line, the marker of its continuation.
-    character(len=8), private :: marker = ''
     integer, private :: status = 0
     !> What stands behind the fields of the last line, the marker of its continuation.
     character(len=8), private :: marker = ''
