@@ -66,7 +66,7 @@ contains
     call check_equilibrium(stiff, known)
     call compare_edges(plates, elastic, stiff, known)
     call write_pressures(elastic)
-    call known%give('equilibrium, turned winds and the triangle of a rigid raft')
+    call known%give('against statics, turned winds and a rigid raft')
   end subroutine run
 
   function plates_wanted() result(plates)
