@@ -7,7 +7,7 @@
 module fuge_nearest_case
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgemm, dgemv
+  use fuge_lapack, only: dgemm
   use fuge_load_cases_type, only: fuge_load_cases
   use fuge_problem_type, only: fuge_problem
   use fuge_status, only: fuge_info, require_memory
@@ -178,27 +178,23 @@ contains
   end function direction
 
   !> Product of the direction of each case with one `vector`, (cases).
-  subroutine project(cases, scales, vector, row)
+  pure subroutine project(cases, scales, vector, row)
     type(fuge_load_cases), intent(in) :: cases
     type(case_scales), intent(in) :: scales
     real(dp), intent(in) :: vector(:)
     real(dp), intent(out) :: row(:)
-    integer :: j, m, n
+    integer :: j, k, m
 
     m = size(scales%load)
-    n = size(vector) - m
     row = 0.0_dp
-    if (scales%gap > 0.0_dp) then
-      call dgemv('T', n, size(row), 1.0_dp, cases%gap, n, vector(m + 1:)/scales%gap, 1, 0.0_dp, row, 1)
-    end if
-    do j = 1, m
-      if (scales%load(j) > 0.0_dp) row = row + vector(j)*(cases%load(j, :)/scales%load(j))
+    do k = 1, size(row)
+      if (.not. scales%length(k) > 0.0_dp) cycle
+      if (scales%gap > 0.0_dp) row(k) = dot_product(vector(m + 1:), cases%gap(:, k)/scales%gap)
+      do j = 1, m
+        if (scales%load(j) > 0.0_dp) row(k) = row(k) + vector(j)*(cases%load(j, k)/scales%load(j))
+      end do
+      row(k) = row(k)/scales%length(k)
     end do
-    where (scales%length > 0.0_dp)
-      row = row/scales%length
-    elsewhere
-      row = 0.0_dp
-    end where
   end subroutine project
 
   !> Let the size of the data count beside their direction: what does not grow with them becomes one component more.

@@ -251,9 +251,13 @@ contains
     real(dp), intent(in), optional :: displacement(:, :)
     type(fuge_load_cases) :: found
     type(fuge_problem) :: posed
+    real(dp), allocatable :: moved(:, :)
     integer :: k, stat
 
-    call check_loads(self, loads, info, displacement)
+    stat = 0
+    if (present(displacement)) allocate (moved, source=displacement, stat=stat)
+    call require_memory(stat, 'the displacements of supports', info)
+    if (.not. info%failed()) call check_loads(self, loads, moved, info)
     if (.not. info%failed()) then
       posed = problem
       call self%pose(gap, posed, info)
@@ -262,7 +266,7 @@ contains
     allocate (found%gap(size(gap), size(loads, 2)), found%load(posed%mode_count(), size(loads, 2)), &
               found%refused(size(loads, 2)), stat=stat)
     call require_memory(stat, 'the gaps of', size(loads, 2), 'load cases', info)
-    if (.not. info%failed()) call condense_loads(self, loads, found, info, displacement)
+    if (.not. info%failed()) call condense_loads(self, loads, moved, found, info)
     if (info%failed()) return
     do k = 1, size(loads, 2)
       found%gap(:, k) = gap + found%gap(:, k)
@@ -278,12 +282,12 @@ contains
   end subroutine pose_cases
 
   !> Displacements b of the contact points and resultants w of all load cases, as cases%gap and cases%load.
-  subroutine condense_loads(self, loads, cases, info, displacement)
+  subroutine condense_loads(self, loads, moved, cases, info)
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(in) :: loads(:, :)
+    real(dp), intent(in), allocatable :: moved(:, :)
     type(fuge_load_cases), intent(inout) :: cases
     type(fuge_info), intent(inout) :: info
-    real(dp), intent(in), optional :: displacement(:, :)
     real(dp), allocatable :: block(:, :)
     integer :: first, i, k, stat
 
@@ -299,7 +303,7 @@ contains
           block(:, k - first + 1) = 0.0_dp
           if (.not. cases%refused(k)%failed()) block(:, k - first + 1) = loads(:, k)
         end do
-        call solve_loads(self, first, block(:, :last - first + 1), stat, displacement)
+        call solve_loads(self, first, block(:, :last - first + 1), moved, stat)
         call require_memory(stat, 'the displacements due to the loads', info)
         if (stat /= 0) return
         do k = first, last
@@ -327,28 +331,28 @@ contains
 
   !> Replace the external loads of the cases from number `first` on, (degrees, columns), by their displacements, those
   !> of the supports included.
-  subroutine solve_loads(self, first, block, stat, displacement)
+  subroutine solve_loads(self, first, block, moved, stat)
     class(fuge_condensed), intent(in) :: self
     integer, intent(in) :: first
     real(dp), intent(inout), contiguous :: block(:, :)
     integer, intent(out) :: stat
-    real(dp), intent(in), optional :: displacement(:, :)
+    real(dp), intent(in), allocatable :: moved(:, :)
     real(dp), allocatable :: support_forces(:)
     integer :: k
 
     allocate (support_forces(size(block, 1)), stat=stat)
-    if (stat == 0 .and. .not. present(displacement)) &
+    if (stat == 0 .and. .not. allocated(moved)) &
       call find_support_forces(self, support_forces, stat, self%body%displacement)
     do k = 1, size(block, 2)
-      if (stat == 0 .and. present(displacement)) &
-        call find_support_forces(self, support_forces, stat, displacement(:, first + k - 1))
+      if (stat == 0 .and. allocated(moved)) &
+        call find_support_forces(self, support_forces, stat, moved(:, first + k - 1))
       if (stat /= 0) return
       block(:, k) = merge(0.0_dp, block(:, k) - support_forces, self%constrained)
     end do
     call self%factor%solve(block, stat)
     do k = 1, size(block, 2)
-      if (present(displacement)) then
-        call add_supports(self, block(:, k), displacement(:, first + k - 1))
+      if (allocated(moved)) then
+        call add_supports(self, block(:, k), moved(:, first + k - 1))
       else
         call add_supports(self, block(:, k), self%body%displacement)
       end if
@@ -368,10 +372,14 @@ contains
     real(dp), intent(inout) :: u(:, :)
     type(fuge_info), intent(out) :: info
     real(dp), intent(in), optional :: displacement(:, :)
+    real(dp), allocatable :: moved(:, :)
     real(dp), allocatable :: block(:, :)
     integer :: first, k, stat
 
-    call check_loads(self, loads, info, displacement)
+    stat = 0
+    if (present(displacement)) allocate (moved, source=displacement, stat=stat)
+    call require_memory(stat, 'the displacements of supports', info)
+    if (.not. info%failed()) call check_loads(self, loads, moved, info)
     if (.not. info%failed()) call check_case_solutions(self, solutions, shape(loads), shape(u), info)
     do k = 1, size(loads, 2)
       if (info%failed()) return
@@ -389,7 +397,7 @@ contains
           block(:, k - first + 1) = loads(:, k)
           call add_contact_forces(self%body, solutions%force(:, k), block(:, k - first + 1))
         end do
-        call solve_loads(self, first, block(:, :last - first + 1), stat, displacement)
+        call solve_loads(self, first, block(:, :last - first + 1), moved, stat)
         call require_memory(stat, 'the displacements of load cases', info)
         do k = first, last
           if (info%failed()) return
@@ -462,11 +470,11 @@ contains
 
   !> Refuse loads, or displacements of supports, that do not fit this body (FUGE_ERR_SIZE), or before there is one
   !> (FUGE_ERR_CALL_ORDER), and displacements that are not finite (FUGE_ERR_NOT_FINITE).
-  pure subroutine check_loads(self, loads, info, displacement)
+  pure subroutine check_loads(self, loads, moved, info)
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(in) :: loads(:, :)
     type(fuge_info), intent(inout) :: info
-    real(dp), intent(in), optional :: displacement(:, :)
+    real(dp), intent(in), allocatable :: moved(:, :)
     integer :: fixed, k
 
     if (.not. allocated(self%factor)) then
@@ -476,15 +484,15 @@ contains
                   //' columns: it needs a row for each of '//text(size(self%constrained))//' degrees of freedom and ' &
                   //'a column for each load case')
     end if
-    if (info%failed() .or. .not. present(displacement)) return
+    if (info%failed() .or. .not. allocated(moved)) return
     fixed = 0
     if (allocated(self%body%fixed)) fixed = size(self%body%fixed)
-    if (any(shape(displacement) /= [fixed, size(loads, 2)])) &
-      call report(info, FUGE_ERR_SIZE, 'displacement has '//text(size(displacement, 1))//' rows and ' &
-                  //text(size(displacement, 2))//' columns: it needs a row for each of '//text(fixed) &
+    if (any(shape(moved) /= [fixed, size(loads, 2)])) &
+      call report(info, FUGE_ERR_SIZE, 'displacement has '//text(size(moved, 1))//' rows and ' &
+                  //text(size(moved, 2))//' columns: it needs a row for each of '//text(fixed) &
                   //' fixed degrees of freedom and a column for each of '//text(size(loads, 2))//' load cases')
-    do k = 1, size(displacement, 2)
-      if (.not. info%failed()) call check_finite(displacement(:, k), 'displacement', info)
+    do k = 1, size(moved, 2)
+      if (.not. info%failed()) call check_finite(moved(:, k), 'displacement', info)
     end do
   end subroutine check_loads
 

@@ -239,7 +239,12 @@ contains
     type(fuge_problem) :: posed
 
     call start_problem(self, posed, info)
-    if (.not. info%failed()) call condensed%pose_cases(gaps(self), loads, posed, cases, info, displacement)
+    if (info%failed()) return
+    if (present(displacement)) then
+      call condensed%pose_cases(gaps(self), loads, posed, cases, info, displacement)
+    else
+      call condensed%pose_cases(gaps(self), loads, posed, cases, info)
+    end if
     if (.not. info%failed()) problem = posed
   end subroutine pose_cases
 
