@@ -135,7 +135,10 @@ contains
     if (info%failed()) return
     call springs%attach(operator)
     call scaled%attach(springs)
-    if (allocated(canonical%feasible_force)) balance = scaled%scale_forces(canonical%feasible_force)
+    if (allocated(canonical%feasible_force)) &
+      allocate (balance, source=scaled%scale_forces(canonical%feasible_force), stat=stat)
+    call require_memory(stat, 'forces in equilibrium', info)
+    if (stat /= 0) return
     relay%listener => monitor
     relay%springs = scaled%spring_points()
     call solve_by_products(self, scaled, similar, options, relay, solution, info, balance)
