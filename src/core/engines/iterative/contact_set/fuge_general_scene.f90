@@ -50,13 +50,10 @@ contains
     call allocate_scene(canonical, scene, info)
     if (info%failed()) return
     scene%gap = (canonical%gap - scaling%gap_datum)/scaling%load
-    if (allocated(scene%play)) then
-      scene%play = canonical%upper
-      where (canonical%upper < huge(1.0_dp)) scene%play = canonical%upper/scaling%load
-    end if
+    if (allocated(scene%play)) scene%play = scaled_bound(canonical%upper, scaling%load)
     if (scene%has_limits()) then
-      scene%limit = scaled_limit(canonical%limit, scaling%load)
-      scene%limit_upper = scaled_limit(canonical%limit_upper, scaling%load)
+      scene%limit = scaled_bound(canonical%limit, scaling%load)
+      scene%limit_upper = scaled_bound(canonical%limit_upper, scaling%load)
     end if
     if (allocated(scene%excluded)) then
       scene%excluded = canonical%excluded
@@ -70,14 +67,14 @@ contains
     end if
   end subroutine set_general_scene
 
-  !> A limit of a force in units of the scene, huge where there is none.
-  elemental function scaled_limit(limit, load) result(scaled)
-    real(dp), intent(in) :: limit, load
+  !> A limit or a play in units of the scene, huge where there is none or where sums over 2**40 cells may overflow.
+  elemental function scaled_bound(bound, load) result(scaled)
+    real(dp), intent(in) :: bound, load
     real(dp) :: scaled
 
     scaled = huge(scaled)
-    if (limit < min(load, 1.0_dp)*huge(scaled)) scaled = limit/load
-  end function scaled_limit
+    if (bound < min(load, 1.0_dp)*(huge(scaled)/2.0_dp**40)) scaled = bound/load
+  end function scaled_bound
 
   !> Allocate what the scene has. Error: FUGE_ERR_MEMORY.
   subroutine allocate_scene(canonical, scene, info)
