@@ -16,6 +16,15 @@ module fuge_c_decks
   implicit none
   private
 
+  abstract interface
+    subroutine table_reader(path, deck, info)
+      import :: fuge_deck, fuge_info
+      character(len=*), intent(in) :: path
+      type(fuge_deck), intent(inout) :: deck
+      type(fuge_info), intent(out) :: info
+    end subroutine table_reader
+  end interface
+
 contains
 
   function c_read_deck(path, destination, message, length) bind(c, name='fuge_read_deck') result(status)
@@ -81,43 +90,43 @@ contains
     if (.not. info%failed()) call c_f_pointer(handle, deck)
   end subroutine find_deck
 
-  function c_deck_read_links(handle, path, message, length) bind(c, name='fuge_deck_read_links') result(status)
-    type(c_ptr), intent(in), value :: handle, path, message
-    integer(c_size_t), intent(in), value :: length
+  !> Add the rows of a table to the deck behind a handle.
+  function read_table(read_rows, handle, path, message, length) result(status)
+    procedure(table_reader) :: read_rows
+    type(c_ptr), intent(in) :: handle, path, message
+    integer(c_size_t), intent(in) :: length
     integer(c_int) :: status
     type(fuge_deck), pointer :: deck
     type(fuge_info) :: info
 
     call find_deck(handle, deck, info)
     call require_path(path, info)
-    if (.not. info%failed()) call fuge_read_links(from_c_string(path), deck, info)
+    if (.not. info%failed()) call read_rows(from_c_string(path), deck, info)
     status = report_to_c(info, message, length)
+  end function read_table
+
+  function c_deck_read_links(handle, path, message, length) bind(c, name='fuge_deck_read_links') result(status)
+    type(c_ptr), intent(in), value :: handle, path, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+
+    status = read_table(fuge_read_links, handle, path, message, length)
   end function c_deck_read_links
 
   function c_deck_read_supports(handle, path, message, length) bind(c, name='fuge_deck_read_supports') result(status)
     type(c_ptr), intent(in), value :: handle, path, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_deck), pointer :: deck
-    type(fuge_info) :: info
 
-    call find_deck(handle, deck, info)
-    call require_path(path, info)
-    if (.not. info%failed()) call fuge_read_supports(from_c_string(path), deck, info)
-    status = report_to_c(info, message, length)
+    status = read_table(fuge_read_supports, handle, path, message, length)
   end function c_deck_read_supports
 
   function c_deck_read_cases(handle, path, message, length) bind(c, name='fuge_deck_read_cases') result(status)
     type(c_ptr), intent(in), value :: handle, path, message
     integer(c_size_t), intent(in), value :: length
     integer(c_int) :: status
-    type(fuge_deck), pointer :: deck
-    type(fuge_info) :: info
 
-    call find_deck(handle, deck, info)
-    call require_path(path, info)
-    if (.not. info%failed()) call fuge_read_cases(from_c_string(path), deck, info)
-    status = report_to_c(info, message, length)
+    status = read_table(fuge_read_cases, handle, path, message, length)
   end function c_deck_read_cases
 
   function c_deck_get_counts(handle, links, cases) bind(c, name='fuge_deck_get_counts') result(status)

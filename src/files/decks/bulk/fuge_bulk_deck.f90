@@ -149,6 +149,9 @@ contains
     case ('GRDSET')
       if (card%has(2) .or. card%has(6) .or. card%has(7)) reason = 'defaults of CP, CD and PS are not read: write ' &
         //'them on each GRID'
+    case ('MATS1')
+      if (card%word(3) == 'NLELAST') reason = 'materials that depend on the strain are not read: give cables and ' &
+        //'struts as CBUSH1D with a table'
     case default
       if (any(card%name == REFUSED)) then
         reason = 'contact and springs of this kind are not read: CGAP, and CBUSH1D with a table, are'

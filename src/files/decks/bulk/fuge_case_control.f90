@@ -20,11 +20,13 @@ module fuge_case_control
   !> Longest word of a command, and number, that are looked at.
   integer, parameter :: WORD_LENGTH = 32
 
-  !> What is selected: subcase, load set, set of supports.
+  !> What is selected: subcase, load set, set of supports, set of equations.
   type :: selection
     !> Above the first subcase, for all of them.
-    integer :: common(2) = 0
-    integer :: subcase(3) = 0
+    integer :: common(3) = 0
+    integer :: subcase(4) = 0
+    !> Equations of the first subcase, which are those of the stiffness matrix; negative before it.
+    integer :: equations = -1
     integer :: place(2) = [1, 0]
     logical :: inside = .false.
     integer :: status = 0
@@ -57,7 +59,7 @@ contains
     end do
     if (info%failed()) return
     if (state%inside) call keep_subcase(state, subcases, reason)
-    state%subcase = [0, state%common]
+    state%subcase = [0, state%common(:2), max(state%equations, 0)]
     call keep_subcase(state, subcases, reason)
     if (allocated(reason)) call deck%refuse(reason, info)
     if (state%status /= 0) call report(info, FUGE_ERR_MEMORY, deck%file(1)%name//': no memory for the subcases')
@@ -117,6 +119,9 @@ contains
     case ('SPC')
       call read_label(trim(value), 'set of supports', 1, huge(1), state%subcase(3), reason)
       if (.not. state%inside) state%common(2) = state%subcase(3)
+    case ('MPC')
+      call read_label(trim(value), 'set of equations', 1, huge(1), state%subcase(4), reason)
+      if (.not. state%inside) state%common(3) = state%subcase(4)
     case default
       if (any(command == REFUSED) .and. index(value, 'INIT') + index(value, 'MATE') == 0) &
         reason = trim(command)//' is not read: give each load case as a SUBCASE with LOAD = and SPC ='
@@ -167,7 +172,13 @@ contains
     logical :: is_new
 
     if (allocated(reason)) return
-    call subcases%append_named(state%place, state%subcase, [real(dp) ::], is_new, state%status)
+    if (state%equations < 0) state%equations = state%subcase(4)
+    if (state%subcase(4) /= state%equations) then
+      reason = 'subcase '//text(state%subcase(1))//' above has other equations, MPC, than the first one: a stiffness ' &
+        //'matrix serves those of one set, so read them as decks of their own'
+      return
+    end if
+    call subcases%append_named(state%place, state%subcase(:3), [real(dp) ::], is_new, state%status)
     if (.not. is_new .and. state%status == 0) reason = 'subcase '//text(state%subcase(1))//' above is defined twice'
   end subroutine keep_subcase
 

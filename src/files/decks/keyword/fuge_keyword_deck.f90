@@ -26,8 +26,8 @@ module fuge_keyword_deck
     'CONTACTINCLUSION', 'LOADCASE', 'NOCOMPRESSION', 'NOTENSION', 'CONNECTORSTOP', 'CONNECTORLOCK', 'SLIDELINE', &
     'RIGIDSURFACE', 'ANALYTICALSURFAC', 'MODELCHANGE']
   !> Loads of a step that are no forces at nodes.
-  character(len=16), parameter :: UNREAD_LOADS(8) = [character(len=16) :: 'DLOAD', 'DSLOAD', 'TEMPERATURE', &
-    'CONNECTORLOAD', 'CONNECTORMOTION', 'INERTIARELIEF', 'CFLUX', 'DFLUX']
+  character(len=16), parameter :: UNREAD_LOADS(10) = [character(len=16) :: 'DLOAD', 'DSLOAD', 'TEMPERATURE', &
+    'FIELD', 'BASEMOTION', 'CONNECTORLOAD', 'CONNECTORMOTION', 'INERTIARELIEF', 'CFLUX', 'DFLUX']
   !> Parameters of supports and loads that are not read.
   character(len=12), parameter :: UNREAD_PARAMETERS(12) = [character(len=12) :: 'AMPLITUDE', 'USER', 'FIXED', 'TYPE', &
     'SUBMODEL', 'FILE', 'SECTOR', 'FOLLOWER', 'LOADCASE', 'TIMEDELAY', 'OMEGA0', 'REGION']
@@ -257,6 +257,9 @@ contains
       if (.not. state%in_step) call input%refuse('*CLOAD is needed in a *STEP', info)
       call begin_conditions(input, state%load_op, state%forces, state%unread, info)
       state%content = DATA_LOADS
+    case ('INITIALCONDITIONS')
+      if (upper_case(input%parameter('TYPE')) == 'STRESS') &
+        call input%refuse('initial stresses are not read: give their forces at nodes by *CLOAD', info)
     case ('SPRING')
       if (input%has('NONLINEAR')) call input%refuse('nonlinear springs are not read: give one-way springs as GAPUNI ' &
         //'with a stiffness, or in a table of links', info)
