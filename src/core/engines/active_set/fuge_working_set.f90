@@ -24,8 +24,10 @@ module fuge_working_set
     real(dp), allocatable :: reduced_gap(:)
     !> Taken out of all gaps if there is a translation to take it up, else 0; length.
     real(dp) :: gap_datum = 0.0_dp
-    !> Forces up to this one are rounding; 0 if there is a load to compare them with.
+    !> Forces up to this one are rounding; 0 if there is a load to compare them with. The second one is that of the gaps
+    !> alone, without points at their limits, whose forces are a load too.
     real(dp) :: zero_force = 0.0_dp
+    real(dp), private :: unloaded_force = 0.0_dp
     !> Scaled violation of the sign conditions at each point, (n).
     real(dp), allocatable :: violation(:)
     !> Displacement by the forces at each open point, (n), from the last measure.
@@ -53,7 +55,7 @@ module fuge_working_set
 contains
 
   !> Prepare for a problem; arrays of an earlier one are used again. Excluded points of `state` (n) are opened, tied
-  !> ones closed. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
+  !> ones closed unless they are at a limit. `status`: FUGE_DONE or FUGE_ERR_MEMORY.
   subroutine start(self, canonical, state, status)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
@@ -79,9 +81,10 @@ contains
     self%reduced_gap = canonical%gap - self%gap_datum
     self%violation = 0.0_dp
     self%elastic = 0.0_dp
-    self%zero_force = largest_zero_force(canonical, self%reduced_gap)
+    self%unloaded_force = largest_zero_force(canonical, self%reduced_gap)
+    self%zero_force = self%unloaded_force
     where (canonical%excluded) state = FUGE_OPEN
-    where (.not. (canonical%upper > 0.0_dp .or. canonical%excluded)) state = FUGE_AT_LOWER_STOP
+    where (.not. (canonical%upper > 0.0_dp .or. canonical%excluded .or. abs(state) > 1)) state = FUGE_AT_LOWER_STOP
   end subroutine start
 
   !> Take these states (n) as the set.
@@ -92,9 +95,13 @@ contains
 
     self%contact = abs(state) == FUGE_AT_LOWER_STOP
     call find_gap_at_stops(self, canonical, state)
+    self%zero_force = self%unloaded_force
     if (allocated(self%limit_force)) deallocate (self%limit_force, self%limit_displacement)
     if (.not. canonical%has_limits()) return
-    if (any(abs(state) > 1)) call load_limited_points(self, canonical, state)
+    if (.not. any(abs(state) > 1)) return
+    call load_limited_points(self, canonical, state)
+    if (any(abs(self%limit_force) > 0.0_dp)) &
+      self%zero_force = min(self%zero_force, SIGN_TOLERANCE*maxval(abs(self%limit_force)))
   end subroutine mark
 
   !> The forces of the points at their limits, and what they displace.
