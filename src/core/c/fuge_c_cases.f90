@@ -34,7 +34,6 @@ contains
     if (.not. info%failed()) then
       handle%solved = .false.
       handle%tried = .false.
-      handle%cases = fuge_case_solutions()
       call fuge_solve_cases(handle%solver, handle%operator%operator, handle%problem, data, found, info, &
                             handle%options, handle%monitor)
     end if

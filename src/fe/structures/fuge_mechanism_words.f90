@@ -1,5 +1,6 @@
 !> A mechanism in words: which links open or give way, and how the structure moves.
 module fuge_mechanism_words
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_links_type, only: fuge_links
   use fuge_nodal_modes, only: fuge_rigid_modes
@@ -23,13 +24,15 @@ contains
   !> move as a rigid body, the degree of freedom that moves most.
   !>
   !> `position` (2 or 3, nodes), length; `dof` (2 or 3, nodes) displacements of the nodes along the axes, 0 for those
-  !> that do not move. Without nodes only the links are described. Errors: FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
+  !> that do not move. Without nodes only the links are described. Errors: FUGE_ERR_SIZE,
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_MEMORY.
   subroutine fuge_describe_mechanism(links, u, position, dof, info)
     type(fuge_links), intent(in) :: links
     real(dp), intent(in) :: u(:), position(:, :)
     integer, intent(in) :: dof(:, :)
     type(fuge_info), intent(out) :: info
     character(len=:), allocatable :: words
+    integer :: k
 
     if (any(shape(position) /= shape(dof)) .or. all(size(dof, 1) /= [2, 3])) then
       call report(info, FUGE_ERR_SIZE, 'position and dof need a row for each of two or three axes, and a column for ' &
@@ -40,6 +43,10 @@ contains
       call report(info, FUGE_ERR_SIZE, 'a link has degree of freedom '//index_text(links%last_degree())//': u has ' &
                   //text(size(u))//' value(s)')
     end if
+    if (.not. info%failed()) call check_finite(u, 'u', info)
+    do k = 1, size(position, 2)
+      if (.not. info%failed()) call check_finite(position(:, k), 'position', info)
+    end do
     if (info%failed()) return
     if (.not. any(abs(u) > 0.0_dp)) then
       call report(info, FUGE_DONE, 'nothing moves: the links balance the loads')

@@ -89,6 +89,9 @@ static void test_refusals(void) {
   CHECK_STATUS(fuge_get_case_states(solver, 2, state), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_get_case_states(solver, -1, state), FUGE_ERR_SIZE);
   CHECK_STATUS(fuge_get_case_info(solver, 0, NULL), FUGE_ERR_POINTER);
+  /* A refused call leaves the cases of the one before. */
+  CHECK_STATUS(fuge_solve_cases(solver, CASES, NULL, NULL, force, NULL, NULL, NULL), FUGE_ERR_SIZE);
+  CHECK_DONE(fuge_get_case_states(solver, 1, state));
   CHECK_DONE(fuge_solve(solver));
   CHECK_STATUS(fuge_get_case_states(solver, 0, state), FUGE_ERR_CALL_ORDER);
   fuge_solver_free(&solver);

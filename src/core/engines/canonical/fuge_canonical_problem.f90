@@ -132,7 +132,8 @@ contains
     if (fault%stat /= 0) then
       call require_memory(fault%stat, 'orthogonal modes of', size(modes, 1), 'points', info)
     else if (fault%idle > 0) then
-      call report(info, FUGE_ERR_MODES, 'mode '//index_text(canonical%free(fault%idle))//' moves no point')
+      call report(info, FUGE_ERR_MODES, 'mode '//index_text(canonical%free(fault%idle)) &
+                  //' moves no point that may carry a force: leave the mode out, or prescribe its motion')
     else if (fault%dependent > 0) then
       call report(info, FUGE_ERR_MODES, 'mode '//index_text(canonical%free(fault%dependent)) &
                   //' is a combination of the other modes: leave it out')
