@@ -2,11 +2,11 @@
 module independent_springs
   use fuge, only: dp => fuge_dp, fuge_info, fuge_operator, FUGE_DONE
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, start_iterate
-  use fuge_contact_scene, only: contact_scene
+  use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   implicit none
   private
 
-  public :: set_iterate
+  public :: set_iterate, set_tilting_scene
 
   !> A is the diagonal matrix of the compliances plus `uniform` everywhere, which is taken out as the datum.
   type, extends(fuge_operator), public :: spring_operator
@@ -67,6 +67,21 @@ contains
     force = displacement/self%compliance
     status = self%status
   end subroutine precondition
+
+  !> Three points at x = -1, 0, 1 that may move up and down and tilt, the resultants 3 and 2, and a fourth one at x = 9
+  !> that is excluded.
+  pure subroutine set_tilting_scene(scene)
+    type(contact_scene), intent(out) :: scene
+
+    allocate (scene%gap(4), scene%excluded(4), scene%modes(4, 2), scene%load(2), scene%balance(4))
+    scene%gap = [0.0_dp, 1.0_dp, 2.0_dp, OUT_OF_REACH]
+    scene%prescribed = .true.
+    scene%absorbs_datum = .true.
+    scene%excluded = [.false., .false., .false., .true.]
+    scene%modes = reshape([1.0_dp, 1.0_dp, 1.0_dp, 0.0_dp, -1.0_dp, 0.0_dp, 1.0_dp, 0.0_dp], [4, 2])
+    scene%load = [3.0_dp, 2.0_dp]
+    scene%balance = [0.5_dp, 0.0_dp, 2.5_dp, 0.0_dp]
+  end subroutine set_tilting_scene
 
   !> Start from `force` with the contact set `contact`, and the displacements by one product.
   subroutine set_iterate(a, prescribed, force, contact, iterate)

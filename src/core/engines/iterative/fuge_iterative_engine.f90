@@ -7,12 +7,13 @@ module fuge_iterative_engine
   use fuge_canonical_problem, only: canonical_problem
   use fuge_complete_contact, only: equal_forces_displace_nothing
   use fuge_constants, only: LARGEST_EXPONENT
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap, evaluate_iterate, make_feasible, start_iterate
+  use fuge_contact_iterate, only: contact_iterate, deformed_gap, evaluate_iterate, start_iterate
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_set_search, only: find_contact_set, find_states, search_settings
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_contact_window, only: solve_in_window, survey_level
   use fuge_engine_messages, only: report_closed_gap, SINGULAR_AND_UNRESISTED, SINGULAR_ON_CONTACT
+  use fuge_feasible_forces, only: make_feasible
   use fuge_general_scene, only: assemble_general, set_general_scene
   use fuge_iterated_set, only: iterated_set
   use fuge_iteration_error, only: estimated_force_error, find_rounding

@@ -7,12 +7,13 @@
 module fuge_contact_set_search
   use fuge_blocking_step, only: is_tensile, step_to_blocking
   use fuge_complete_contact, only: equal_forces_displace_nothing
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, is_accurate, &
-    make_feasible, rounding_force
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, &
+    is_accurate, rounding_force
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, &
     FUGE_OPEN
+  use fuge_feasible_forces, only: make_feasible
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
   use fuge_limited_descent, only: descend_within_limits

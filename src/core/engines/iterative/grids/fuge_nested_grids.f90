@@ -3,9 +3,10 @@
 !>
 !> fuge_grid_transfer carries gaps to a coarser grid and forces to the next finer one.
 module fuge_nested_grids
-  use fuge_contact_iterate, only: clip_forces, contact_iterate, start_iterate
+  use fuge_contact_iterate, only: contact_iterate, start_iterate
   use fuge_contact_scene, only: coarser_scene, contact_scene
   use fuge_contact_set_search, only: find_contact_set, search_settings
+  use fuge_feasible_forces, only: clip_forces
   use fuge_grid_transfer, only: coarser_cells
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor

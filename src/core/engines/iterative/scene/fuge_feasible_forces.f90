@@ -1,0 +1,266 @@
+!> Forces that are feasible: on the contact set only, of the right sign, within their limits, and with the resultants.
+module fuge_feasible_forces
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum
+  use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_kinds, only: dp
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info
+  implicit none
+  private
+
+  public :: clip_forces, make_feasible
+
+  !> A sum of n forces is rounded by at most about this many units in its last place, times the root of n.
+  real(dp), parameter :: SUM_ROUNDINGS = 64.0_dp
+  !> Distances tried to find those of the last points that carry a load.
+  integer, parameter :: LEVELS = 100
+
+contains
+
+  !> Make the forces feasible: zero off the contact set, of the right sign, and with the resultants. Recompute their
+  !> displacements.
+  !>
+  !> With modes, forces of the wrong sign may come back with the resultants; where the set cannot carry these at all,
+  !> the points of scene%balance join it. Errors: those of the operator, FUGE_ERR_MEMORY.
+  subroutine make_feasible(operator, scene, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: largest(2)
+
+    call clip_forces(scene, iterate)
+    if (allocated(scene%modes)) then
+      iterate%rigid_motion = 0.0_dp
+      call restore_resultants(scene, iterate, info)
+    else if (.not. iterate%prescribed) then
+      if (scene%has_limits()) then
+        call restore_load_within_limits(scene, iterate)
+      else
+        call restore_load(iterate)
+      end if
+    end if
+    if (.not. info%failed()) call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, &
+                                                       iterate%displacement, info)
+    ! Forces to start from may be the rounding of those under another load.
+    if (scene%is_unloaded() .and. .not. info%failed()) then
+      largest = [maxval(abs(iterate%force)), maxval(abs(iterate%displacement))]
+      call scene%rows%raise(largest)
+      if (largest(1) > 0.0_dp) iterate%softness = max(iterate%softness, largest(2)/largest(1))
+    end if
+  end subroutine make_feasible
+
+  !> No forces off the contact set, nor of the wrong sign on it.
+  pure subroutine clip_forces(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    integer :: k
+
+    if (.not. allocated(scene%play)) then
+      where (iterate%contact)
+        iterate%force = max(iterate%force, 0.0_dp)
+      else where
+        iterate%force = 0.0_dp
+      end where
+      return
+    end if
+    if (scene%has_limits()) then
+      do k = 1, size(iterate%force)
+        iterate%force(k) = force_in_range(scene, iterate, k)
+      end do
+      return
+    end if
+    do k = 1, size(iterate%force)
+      if (.not. iterate%contact(k)) then
+        iterate%force(k) = 0.0_dp
+      else if (scene%is_tied(k)) then
+        cycle
+      else if (iterate%at_upper(k)) then
+        iterate%force(k) = min(iterate%force(k), 0.0_dp)
+      else
+        iterate%force(k) = max(iterate%force(k), 0.0_dp)
+      end if
+    end do
+  end subroutine clip_forces
+
+  !> The force of point `k`, or the nearest one that it may have: that of its limit, or none, off the contact set.
+  pure function force_in_range(scene, iterate, k) result(force)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    real(dp) :: force
+    real(dp) :: least, most
+
+    force = 0.0_dp
+    if (iterate%contact(k)) then
+      call scene%find_range(k, iterate%at_upper(k), least, most)
+      force = min(max(iterate%force(k), least), most)
+    else if (iterate%limited(k) /= 0) then
+      force = scene%limited_force(k, iterate%limited(k))
+    end if
+  end function force_in_range
+
+  !> As `restore_load`, where some forces are at their limits and stay there. Forces that are too large together shrink
+  !> by one factor; where they are too small, what they lack of their limits does, so that all stay within these. Where
+  !> the others would have to pull, all points that have a force share the load. Where the forces at their limits carry
+  !> just the load, the last of them to get there has what they leave; where they carry less or more and no others are
+  !> in contact, the nearest points get to their limits as well, or the furthest leave theirs.
+  subroutine restore_load_within_limits(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: sums(4), factor, rest
+
+    sums = sums_within_limits(scene, iterate)
+    if (.not. sums(3) > 0.0_dp) then
+      if (abs(1.0_dp - sums(2)) <= sum_rounding(scene)) then
+        call free_last_limited(scene, iterate)
+      else
+        call fill_to_load(scene, 1.0_dp - sums(2), iterate)
+      end if
+      sums = sums_within_limits(scene, iterate)
+    end if
+    rest = 1.0_dp - sums(2)
+    if (rest <= 0.0_dp .or. .not. sums(3) > 0.0_dp) then
+      iterate%contact = iterate%contact .or. iterate%limited /= 0
+      iterate%limited = 0
+      call restore_load(iterate)
+    else if (rest > sums(1) .and. rest < sums(4)) then
+      factor = (sums(4) - rest)/(sums(4) - sums(1))
+      where (iterate%contact)
+        iterate%force = min(scene%limit, 1.0_dp) - factor*(min(scene%limit, 1.0_dp) - iterate%force)
+      end where
+    else if (sums(1) > 0.0_dp) then
+      where (iterate%contact) iterate%force = iterate%force*(rest/sums(1))
+    else
+      where (iterate%contact) iterate%force = rest/sums(3)
+    end if
+  end subroutine restore_load_within_limits
+
+  !> The sums of the forces on the contact set and off it, the points of the set, and the sum of their limits.
+  function sums_within_limits(scene, iterate) result(sums)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: sums(4)
+
+    sums = [sum(iterate%force, mask=iterate%contact), sum(iterate%force, mask=.not. iterate%contact), &
+            real(count(iterate%contact), dp), sum(min(scene%limit, 1.0_dp), mask=iterate%contact)]
+    call iterate%segments%space%add(sums)
+  end function sums_within_limits
+
+  !> The rounding of a sum of forces that is 1.
+  function sum_rounding(scene) result(rounding)
+    type(contact_scene), intent(in) :: scene
+    real(dp) :: rounding
+
+    rounding = SUM_ROUNDINGS*epsilon(rounding)*sqrt(real(scene%points(), dp))
+  end function sum_rounding
+
+  !> The point that penetrates its stop least of those at the limits of these comes back to it.
+  subroutine free_last_limited(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: greatest, greatest_of_all
+    integer :: last
+
+    last = maxloc(scene%gap + iterate%displacement, dim=1, mask=iterate%limited == 1)
+    greatest = -huge(greatest)
+    if (last > 0) greatest = scene%gap(last) + iterate%displacement(last)
+    greatest_of_all = iterate%segments%space%largest(greatest)
+    if (last < 1 .or. greatest < greatest_of_all) return
+    iterate%limited(last) = 0
+    iterate%contact(last) = .true.
+    iterate%at_upper(last) = .false.
+  end subroutine free_last_limited
+
+  !> Open points get to their limits, the nearest first, until these have the `rest` of the load; if that is negative,
+  !> those at their limits open, the furthest first. The last ones are in contact.
+  subroutine fill_to_load(scene, rest, iterate)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: rest
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: bounds(2), carried(1), middle
+    integer :: step
+
+    ! Distances in `work`; those of points that do not take part are out of reach.
+    iterate%work = sign(1.0_dp, rest)*(scene%gap + iterate%displacement)
+    if (rest > 0.0_dp) then
+      where (iterate%limited /= 0 .or. .not. scene%limit > 0.0_dp .or. scene%gap >= OUT_OF_REACH) &
+        iterate%work = OUT_OF_REACH
+    else
+      where (iterate%limited /= 1) iterate%work = OUT_OF_REACH
+    end if
+    bounds = [-minval(iterate%work), maxval(iterate%work, mask=iterate%work < OUT_OF_REACH)]
+    call iterate%segments%space%raise(bounds)
+    if (.not. -bounds(1) < OUT_OF_REACH) return
+    bounds(1) = -bounds(1) - max(bounds(2) + bounds(1), spacing(bounds(1)))
+    do step = 1, LEVELS
+      middle = bounds(1) + 0.5_dp*(bounds(2) - bounds(1))
+      if (.not. (middle > bounds(1) .and. middle < bounds(2))) exit
+      carried = sum(min(scene%limit, 1.0_dp), mask=iterate%work <= middle)
+      call iterate%segments%space%add(carried)
+      bounds(merge(2, 1, carried(1) >= abs(rest))) = middle
+    end do
+    where (iterate%work <= bounds(1))
+      iterate%limited = merge(1, 0, rest > 0.0_dp)
+      iterate%force = merge(scene%limit, 0.0_dp, rest > 0.0_dp)
+    else where (iterate%work <= bounds(2))
+      iterate%limited = 0
+      iterate%contact = .true.
+      iterate%at_upper = .false.
+    end where
+  end subroutine fill_to_load
+
+  !> Forces of sum 1; equal ones where there are none.
+  subroutine restore_load(iterate)
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: total
+
+    total = iterate%segments%space%total(sum(iterate%force))
+    if (total > 0.0_dp) then
+      iterate%force = iterate%force/total
+    else
+      total = real(iterate%segments%space%total_count(count(iterate%contact)), dp)
+      where (iterate%contact) iterate%force = 1.0_dp/total
+    end if
+  end subroutine restore_load
+
+  !> Forces with the resultants of the scene, on the set, or on the set and the points of scene%balance.
+  subroutine restore_resultants(scene, iterate, info)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    logical :: possible
+    integer :: trial
+
+    do trial = 1, 2
+      call iterate%segments%find(iterate%contact, info)
+      if (.not. info%failed()) call iterate%projection%set(scene%modes, iterate%segments, info)
+      if (info%failed()) return
+      call iterate%projection%correct_resultants(scene%modes, load_on_contact(scene, iterate), iterate%segments, &
+                                                 iterate%force, possible)
+      if (possible .or. trial > 1) return
+      if (allocated(iterate%limited)) iterate%limited = 0
+      where (.not. iterate%contact) iterate%force = scene%balance
+      if (allocated(iterate%at_upper)) then
+        where (.not. iterate%contact) iterate%at_upper = scene%balance < 0.0_dp
+      end if
+      iterate%contact = iterate%contact .or. abs(scene%balance) > 0.0_dp
+    end do
+  end subroutine restore_resultants
+
+  !> The resultants that the forces on the contact set must have, (m): without those of the forces at their limits.
+  function load_on_contact(scene, iterate) result(load)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: load(size(scene%load))
+    real(dp) :: carried(size(load))
+    integer :: j
+
+    load = scene%load
+    if (.not. scene%has_limits()) return
+    carried = [(sum(iterate%force*scene%modes(:, j), mask=.not. iterate%contact), j=1, size(load))]
+    call iterate%segments%space%add(carried)
+    load = load - carried
+  end function load_on_contact
+
+end module fuge_feasible_forces
