@@ -6,6 +6,7 @@ module fuge_nested_grids
   use fuge_contact_iterate, only: contact_iterate, start_iterate
   use fuge_contact_scene, only: coarser_scene, contact_scene
   use fuge_contact_set_search, only: find_contact_set, search_settings
+  use fuge_extended_forces, only: extend_forces
   use fuge_feasible_forces, only: clip_forces
   use fuge_grid_transfer, only: coarser_cells
   use fuge_kinds, only: dp
@@ -143,6 +144,7 @@ contains
     if (info%failed()) return
     ! Tensile forces that a coarse grid leaves help to interpolate, but with play would start at the wrong stop.
     if (allocated(coarse%play)) call clip_forces(coarse, iterate)
+    if (coarse%has_limits()) call extend_forces(coarse, iterate)
     call move_alloc(iterate%force, start)
   end subroutine solve_on_grid
 
