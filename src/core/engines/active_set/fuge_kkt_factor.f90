@@ -21,10 +21,8 @@ module fuge_kkt_factor
   !> more of them a new base set is cheaper.
   integer, parameter :: FEWEST_BORDERS = 16
   integer, parameter :: POINTS_PER_BORDER = 8
-  !> A factor costs a third of the third power of its points, an inverse three times that. By an inverse sets are solved
-  !> that lack one in POINTS_PER_REMOVED points at most: with more of them removed, the Schur complement is no smaller
-  !> than the set.
-  real(dp), parameter :: FACTORS_PER_INVERSE = 3.0_dp
+  !> An inverse solves sets that lack one in POINTS_PER_REMOVED points at most: with more of them removed, the Schur
+  !> complement is no smaller than the set.
   integer, parameter :: POINTS_PER_REMOVED = 2
   !> Stiffness of the springs that resist a mode which the contact set leaves free, relative to the mode's own
   !> stiffness. Forces stay in equilibrium wherever equilibrium exists.
@@ -49,7 +47,7 @@ module fuge_kkt_factor
     type(kkt_inverse) :: inverse
     !> Later solves with the same matrix are likely; it cannot be inverted.
     logical :: expects_solves = .false., inverse_failed = .false.
-    !> What base sets have cost since later solves are likely, or since the last inverse: a factor of c points c**3.
+    !> Multiplications for base sets and borders since later solves are likely, or since the last inverse.
     real(dp) :: spent = 0.0_dp
   contains
     procedure :: set
@@ -109,7 +107,7 @@ contains
                    status)
     if (status == FUGE_DONE) call self%factorise(canonical, contact, status)
     if (status /= FUGE_DONE) return
-    if (self%expects_solves) self%spent = self%spent + real(count(contact), dp)**3
+    call count_cost(self, real(count(contact), dp)**3/3.0_dp)
     call update_borders(self, canonical%alpha, contact, singular)
     if (singular) then
       status = FUGE_ERR_NOT_DEFINITE
@@ -125,8 +123,16 @@ contains
     self%expects_solves = .true.
   end subroutine expect_more_solves
 
-  !> Is it time for an inverse? It costs at most as much as the factors before it then, and pays where most points are in
-  !> contact.
+  !> Count multiplications, if later solves are likely.
+  pure subroutine count_cost(self, multiplications)
+    class(kkt_factor), intent(inout) :: self
+    real(dp), intent(in) :: multiplications
+
+    if (self%expects_solves) self%spent = self%spent + multiplications
+  end subroutine count_cost
+
+  !> Is it time for an inverse? It costs the third power of the number of points, no more than has been spent then, and
+  !> pays where most points are in contact.
   pure function is_worth_inverse(self, excluded, contact) result(worth)
     class(kkt_factor), intent(in) :: self
     logical, intent(in) :: excluded(:), contact(:)
@@ -136,8 +142,7 @@ contains
     worth = .false.
     if (.not. self%expects_solves .or. self%inverse_failed) return
     points = count(contact .or. .not. excluded)
-    worth = self%spent >= FACTORS_PER_INVERSE*real(points, dp)**3 &
-            .and. points - count(contact) <= points/POINTS_PER_REMOVED
+    worth = self%spent >= real(points, dp)**3 .and. points - count(contact) <= points/POINTS_PER_REMOVED
   end function is_worth_inverse
 
   !> Invert the block of all points, and form the system of those in contact. `failed` where the inverse would cost
@@ -237,6 +242,7 @@ contains
     if (self%borders >= first_new .and. m > 0) then
       call dtrsm('L', 'L', 'N', 'N', m, self%borders - first_new + 1, 1.0_dp, self%lower, m, &
                  self%border(:, first_new:), m)
+      call count_cost(self, real(m, dp)**2*real(self%borders - first_new + 1, dp))
     end if
   end subroutine form_borders
 
