@@ -12,7 +12,7 @@ module fuge_kkt_inverse
 
   !> An inverse has lost as many digits as the condition number has, and refinement has to win them back: the largest
   !> diagonal of the block times that of its inverse is at most this.
-  real(dp), parameter :: MOST_CONDITION = 1.0e8_dp
+  real(dp), parameter :: MOST_CONDITION = 1.0e6_dp
   !> Columns that are added in one pass.
   integer, parameter :: COLUMNS = 4
 
