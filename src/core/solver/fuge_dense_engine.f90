@@ -224,7 +224,7 @@ contains
     call self%canonical%set_matrix(operator%alpha, operator%datum(), operator%known(), operator%stamp())
     self%found_factor = self%factor%belongs_to(self%canonical)
     if (self%found_factor) then
-      call self%factor%expect_more_solves()
+      self%factor%expects_solves = .true.
     else
       self%factor = kkt_factor()
     end if

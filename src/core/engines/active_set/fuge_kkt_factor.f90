@@ -45,13 +45,14 @@ module fuge_kkt_factor
     integer, allocatable :: pivots(:)
     !> Inverse of the block of all points, which are the base set then, in place of `lower` and `border`.
     type(kkt_inverse) :: inverse
-    !> Later solves with the same matrix are likely; it cannot be inverted.
-    logical :: expects_solves = .false., inverse_failed = .false.
+    !> Later solves with the same matrix are likely, as there was one before: an inverse may be worth its cost.
+    logical, public :: expects_solves = .false.
+    !> The matrix cannot be inverted without the loss of digits that matter.
+    logical :: inverse_failed = .false.
     !> Multiplications for base sets and borders since later solves are likely, or since the last inverse.
     real(dp) :: spent = 0.0_dp
   contains
     procedure :: set
-    procedure :: expect_more_solves
     procedure :: is_set
     procedure :: belongs_to
     procedure :: solve
@@ -116,13 +117,6 @@ contains
     end if
   end subroutine set
 
-  !> Later solves with the same matrix are likely, as there was one before: an inverse may be worth its cost.
-  pure subroutine expect_more_solves(self)
-    class(kkt_factor), intent(inout) :: self
-
-    self%expects_solves = .true.
-  end subroutine expect_more_solves
-
   !> Count multiplications, if later solves are likely.
   pure subroutine count_cost(self, multiplications)
     class(kkt_factor), intent(inout) :: self
@@ -140,7 +134,7 @@ contains
     integer :: points
 
     worth = .false.
-    if (.not. self%expects_solves .or. self%inverse_failed) return
+    if (self%inverse_failed .or. .not. (self%expects_solves .and. any(contact))) return
     points = count(contact .or. .not. excluded)
     worth = self%spent >= real(points, dp)**3 .and. points - count(contact) <= points/POINTS_PER_REMOVED
   end function is_worth_inverse
@@ -195,7 +189,7 @@ contains
     integer :: stat
 
     self%borders = 0
-    self%inverse = kkt_inverse()
+    if (self%inverse%is_set()) self%inverse = kkt_inverse()
     if (allocated(self%border)) deallocate (self%border)
     if (allocated(self%keys)) deallocate (self%keys)
     if (allocated(self%schur)) deallocate (self%schur)

@@ -1,9 +1,10 @@
 !> The inverse of the block of all points, by which sets that lack some of them need no factor of their own.
 !>
-!> With K the inverse of the block, the forces K g of all points together, and columns of K that undo those of the
-!> points removed: their multipliers solve a small system, the block of K on these points, bordered by the modes. It is
-!> the Schur complement of `kkt_factor`, whose borders need not be computed here. Where many load cases open few of many
-!> points, this saves a triangular solve for each point removed, and the factors of sets far from the last one.
+!> The inverse times the gaps gives the forces of all points together. Multiples of its columns take away those of the
+!> points removed: the multipliers solve a small system, the block of the inverse on these points, bordered by the rigid
+!> modes. That is the Schur complement of `kkt_factor`, whose borders need no computation here. Where many load cases
+!> open few of many points, this saves a triangular solve for each point removed, and the factors of sets far from the
+!> last one.
 module fuge_kkt_inverse
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemv, dpotri, dsymv
@@ -37,11 +38,15 @@ contains
   subroutine set(self, lower, diagonal, modes)
     class(kkt_inverse), intent(inout) :: self
     real(dp), intent(inout), allocatable :: lower(:, :)
-    real(dp), intent(in) :: diagonal(:), modes(:, :)
+    real(dp), intent(in) :: diagonal(:)
+    real(dp), intent(in), contiguous :: modes(:, :)
+    real(dp), allocatable :: image(:, :)
     integer :: info, j, n, stat
 
     n = size(diagonal)
-    allocate (self%modes(n, size(modes, 2)), self%mode_image(n, size(modes, 2)), stat=stat)
+    ! The diagonal of the inverse is no less than one over the least pivot.
+    if (.not. maxval(diagonal) <= MOST_CONDITION*minval([(lower(j, j)**2, j=1, n)])) return
+    allocate (image(n, size(modes, 2)), stat=stat)
     if (stat /= 0) return
     call dpotri('L', n, lower, n, info)
     if (info /= 0) return
@@ -49,10 +54,12 @@ contains
     do j = 2, n
       lower(:j - 1, j) = lower(j, :j - 1)
     end do
-    self%modes = modes
     do j = 1, size(modes, 2)
-      call dsymv('L', n, 1.0_dp, lower, n, self%modes(:, j), 1, 0.0_dp, self%mode_image(:, j), 1)
+      call dsymv('L', n, 1.0_dp, lower, n, modes(:, j), 1, 0.0_dp, image(:, j), 1)
     end do
+    allocate (self%modes, source=modes, stat=stat)
+    if (stat /= 0) return
+    call move_alloc(image, self%mode_image)
     call move_alloc(lower, self%inverse)
   end subroutine set
 
