@@ -4,8 +4,8 @@ module fuge_lapack
   implicit none
   private
 
-  public :: ddot, dgelsy, dgemm, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotrs, dpttrs, dsyev, &
-    dsymv, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
+  public :: ddot, dgelsy, dgemm, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotri, dpotrs, dpttrs, &
+    dsyev, dsymv, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
 
   interface
     !> x.y.
@@ -98,6 +98,15 @@ module fuge_lapack
       real(dp), intent(inout) :: a(lda, *)
       integer, intent(out) :: info
     end subroutine dpotrf
+
+    !> Inverse from the factor of `dpotrf`, one triangle.
+    subroutine dpotri(uplo, n, a, lda, info)
+      import :: dp
+      character(len=1), intent(in) :: uplo
+      integer, intent(in) :: n, lda
+      real(dp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: info
+    end subroutine dpotri
 
     !> Solve with the factor of `dpotrf`.
     subroutine dpotrs(uplo, n, nrhs, a, lda, b, ldb, info)

@@ -223,7 +223,11 @@ contains
     self%took_matrix = .true.
     call self%canonical%set_matrix(operator%alpha, operator%datum(), operator%known(), operator%stamp())
     self%found_factor = self%factor%belongs_to(self%canonical)
-    if (.not. self%found_factor) self%factor = kkt_factor()
+    if (self%found_factor) then
+      self%factor%expects_solves = .true.
+    else
+      self%factor = kkt_factor()
+    end if
     if (options%method == FUGE_TABLEAU .or. (options%method == FUGE_AUTO .and. options%keep_history)) then
       self%factor = kkt_factor()
       self%found_factor = .false.

@@ -147,6 +147,8 @@ contains
     singular = .false.
     allocate (trial, source=factor, stat=status)
     if (status /= 0) return
+    ! Each trial would invert anew.
+    trial%expects_solves = .false.
     call trial%set(canonical, set, status)
     singular = status == FUGE_ERR_NOT_DEFINITE .or. (status == FUGE_DONE .and. trial%regularisation > 0.0_dp)
     if (status == FUGE_ERR_NOT_DEFINITE) status = FUGE_DONE

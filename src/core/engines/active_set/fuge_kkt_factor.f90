@@ -4,12 +4,14 @@
 !> modes. The block of alpha is factored once for a base set (Cholesky). A set that differs in a few points is the
 !> base set with more borders: a removed point by the condition f_k = 0, an added one by its column of alpha.
 !> Eliminating the base set leaves a small symmetric indefinite system, the Schur complement, factored anew for each
-!> set.
+!> set. Once base sets of one matrix have cost as much as its inverse, that takes their place where most points are in
+!> contact.
 module fuge_kkt_factor
   use, intrinsic :: iso_c_binding, only: c_long_long
   use fuge_canonical_problem, only: canonical_problem
   use fuge_kinds, only: dp
   use fuge_kkt_base_set, only: kkt_base_set, PIVOT_TOLERANCE
+  use fuge_kkt_inverse, only: kkt_inverse
   use fuge_lapack, only: dgemv, dpotrf, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
@@ -19,6 +21,9 @@ module fuge_kkt_factor
   !> more of them a new base set is cheaper.
   integer, parameter :: FEWEST_BORDERS = 16
   integer, parameter :: POINTS_PER_BORDER = 8
+  !> An inverse solves sets that lack one in POINTS_PER_REMOVED points at most: with more of them removed, the Schur
+  !> complement is no smaller than the set.
+  integer, parameter :: POINTS_PER_REMOVED = 2
   !> Stiffness of the springs that resist a mode which the contact set leaves free, relative to the mode's own
   !> stiffness. Forces stay in equilibrium wherever equilibrium exists.
   real(dp), parameter :: SOFT_SPRING = 1.0e-14_dp
@@ -38,6 +43,14 @@ module fuge_kkt_factor
     !> Factor of the Schur complement.
     real(dp), allocatable :: schur(:, :)
     integer, allocatable :: pivots(:)
+    !> Inverse of the block of all points, which are the base set then, in place of `lower` and `border`.
+    type(kkt_inverse) :: inverse
+    !> Later solves with the same matrix are likely, as there was one before: an inverse may be worth its cost.
+    logical, public :: expects_solves = .false.
+    !> The matrix cannot be inverted without the loss of digits that matter.
+    logical :: inverse_failed = .false.
+    !> Multiplications for base sets and borders since later solves are likely, or since the last inverse.
+    real(dp) :: spent = 0.0_dp
   contains
     procedure :: set
     procedure :: is_set
@@ -67,7 +80,11 @@ contains
       ! Until the factor is that of the new set.
       deallocate (self%contact)
     end if
-    if (allocated(self%base_set)) borders = size(canonical%modes, 2) + count(contact .neqv. (self%position > 0))
+    if (allocated(self%base_set)) then
+      borders = size(canonical%modes, 2) + count(contact .neqv. (self%position > 0))
+      ! An inverse has no points to add.
+      if (self%inverse%is_set() .and. any(contact .and. self%position < 1)) borders = huge(borders)
+    end if
     if (allocated(self%keys)) then
       if (borders <= size(self%keys)) then
         call update_borders(self, canonical%alpha, contact, singular)
@@ -79,9 +96,19 @@ contains
       end if
     end if
     self%stamp = canonical%stamp
-    call make_room(self, count(contact), size(canonical%modes, 2), status)
+    if (is_worth_inverse(self, canonical%excluded, contact)) then
+      call invert_all(self, canonical, contact, singular)
+      if (.not. singular) then
+        status = FUGE_DONE
+        allocate (self%contact, source=contact)
+        return
+      end if
+    end if
+    call make_room(self, count(contact), FEWEST_BORDERS + count(contact)/POINTS_PER_BORDER + size(canonical%modes, 2), &
+                   status)
     if (status == FUGE_DONE) call self%factorise(canonical, contact, status)
     if (status /= FUGE_DONE) return
+    call count_cost(self, real(count(contact), dp)**3/3.0_dp)
     call update_borders(self, canonical%alpha, contact, singular)
     if (singular) then
       status = FUGE_ERR_NOT_DEFINITE
@@ -89,6 +116,49 @@ contains
       allocate (self%contact, source=contact)
     end if
   end subroutine set
+
+  !> Count multiplications, if later solves are likely.
+  pure subroutine count_cost(self, multiplications)
+    class(kkt_factor), intent(inout) :: self
+    real(dp), intent(in) :: multiplications
+
+    if (self%expects_solves) self%spent = self%spent + multiplications
+  end subroutine count_cost
+
+  !> Is it time for an inverse? It costs the third power of the number of points, no more than has been spent then, and
+  !> pays where most points are in contact.
+  pure function is_worth_inverse(self, excluded, contact) result(worth)
+    class(kkt_factor), intent(in) :: self
+    logical, intent(in) :: excluded(:), contact(:)
+    logical :: worth
+    integer :: points
+
+    worth = .false.
+    if (self%inverse_failed .or. .not. (self%expects_solves .and. any(contact))) return
+    points = count(contact .or. .not. excluded)
+    worth = self%spent >= real(points, dp)**3 .and. points - count(contact) <= points/POINTS_PER_REMOVED
+  end function is_worth_inverse
+
+  !> Invert the block of all points, and form the system of those in contact. `failed` where the inverse would cost
+  !> digits that matter, or without memory.
+  subroutine invert_all(self, canonical, contact, failed)
+    class(kkt_factor), intent(inout) :: self
+    type(canonical_problem), intent(in) :: canonical
+    logical, intent(in) :: contact(:)
+    logical, intent(out) :: failed
+    integer :: status
+
+    self%spent = 0.0_dp
+    self%inverse_failed = .true.
+    failed = .true.
+    call make_room(self, 0, size(canonical%modes, 2) + size(contact)/POINTS_PER_REMOVED, status)
+    if (status == FUGE_DONE) call self%factorise(canonical, contact .or. .not. canonical%excluded, status)
+    if (status /= FUGE_DONE .or. self%regularisation > 0.0_dp) return
+    call self%inverse%set(self%lower, self%diagonal, self%modes(self%base_set, :))
+    if (.not. self%inverse%is_set()) return
+    self%inverse_failed = .false.
+    call update_borders(self, canonical%alpha, contact, failed)
+  end subroutine invert_all
 
   !> Is it a factor of the same matrix with the same modes, as far as that is known, and not regularised?
   pure function belongs_to(self, canonical)
@@ -111,19 +181,19 @@ contains
     is_set = allocated(self%base_set)
   end function is_set
 
-  !> Make room for the borders of a base set of `points` points, with `modes` modes. Error: FUGE_ERR_MEMORY.
-  pure subroutine make_room(self, points, modes, status)
+  !> Make room for `limit` borders of `points` points. Error: FUGE_ERR_MEMORY.
+  pure subroutine make_room(self, points, limit, status)
     class(kkt_factor), intent(inout) :: self
-    integer, intent(in) :: points, modes
+    integer, intent(in) :: points, limit
     integer, intent(out) :: status
-    integer :: limit, stat
+    integer :: stat
 
     self%borders = 0
+    if (self%inverse%is_set()) self%inverse = kkt_inverse()
     if (allocated(self%border)) deallocate (self%border)
     if (allocated(self%keys)) deallocate (self%keys)
     if (allocated(self%schur)) deallocate (self%schur)
     if (allocated(self%pivots)) deallocate (self%pivots)
-    limit = FEWEST_BORDERS + points/POINTS_PER_BORDER + modes
     allocate (self%border(points, limit), self%keys(limit), self%schur(limit, limit), self%pivots(limit), stat=stat)
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, stat == 0)
     if (stat /= 0 .and. allocated(self%base_set)) deallocate (self%base_set)
@@ -136,10 +206,25 @@ contains
     logical, intent(in) :: contact(:)
     logical, intent(out) :: singular
     integer :: target_keys(size(self%modes, 2) + count(contact .neqv. (self%position > 0)))
+
+    target_keys = border_keys(self, contact, size(target_keys))
+    if (self%inverse%is_set()) then
+      self%borders = size(target_keys)
+      self%keys(:self%borders) = target_keys
+    else
+      call form_borders(self, alpha, target_keys)
+    end if
+    call factor_schur(self, alpha, singular)
+  end subroutine update_borders
+
+  !> Keep the borders of the last set that have these keys, and form the others.
+  subroutine form_borders(self, alpha, target_keys)
+    class(kkt_factor), intent(inout) :: self
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    integer, intent(in) :: target_keys(:)
     integer :: first_new, j, m
 
     m = size(self%base_set)
-    target_keys = border_keys(self, contact, size(target_keys))
     call keep_borders(self, target_keys)
     first_new = self%borders + 1
     do j = 1, size(target_keys)
@@ -151,9 +236,9 @@ contains
     if (self%borders >= first_new .and. m > 0) then
       call dtrsm('L', 'L', 'N', 'N', m, self%borders - first_new + 1, 1.0_dp, self%lower, m, &
                  self%border(:, first_new:), m)
+      call count_cost(self, real(m, dp)**2*real(self%borders - first_new + 1, dp))
     end if
-    call factor_schur(self, alpha, singular)
-  end subroutine update_borders
+  end subroutine form_borders
 
   pure function border_keys(self, contact, number) result(keys)
     class(kkt_factor), intent(in) :: self
@@ -221,29 +306,53 @@ contains
     class(kkt_factor), intent(inout) :: self
     real(dp), intent(in) :: alpha(:, :)
     logical, intent(out) :: singular
-    real(dp) :: work(64*self%borders), diagonal(self%borders)
-    integer :: i, j, m, p, limit, info
+    real(dp) :: work(64*self%borders)
+    integer :: p, info
+
+    p = self%borders
+    singular = .false.
+    if (p < 1) return
+    if (self%inverse%is_set()) then
+      call self%inverse%fill_schur(removed_positions(self), self%schur)
+    else
+      call fill_schur(self, alpha, singular)
+    end if
+    call add_soft_springs(self, alpha)
+    if (singular) return
+    call dsytrf('L', p, self%schur, size(self%schur, 1), self%pivots, work, size(work), info)
+    singular = info /= 0
+    if (.not. singular) singular = negative_eigenvalues(self) /= count(self%keys(:p) < 0 .or. &
+                                                                 is_mode(self, self%keys(:p)))
+  end subroutine factor_schur
+
+  !> Form the Schur complement from the borders. `singular` as for `factor_schur`.
+  subroutine fill_schur(self, alpha, singular)
+    class(kkt_factor), intent(inout) :: self
+    real(dp), intent(in) :: alpha(:, :)
+    logical, intent(out) :: singular
+    real(dp) :: diagonal(self%borders)
+    integer :: i, j, m, p
 
     m = size(self%base_set)
     p = self%borders
-    limit = size(self%schur, 1)
     do j = 1, p
       do i = j, p
         self%schur(i, j) = border_entry(self, alpha, self%keys(i), self%keys(j))
       end do
       diagonal(j) = self%schur(j, j)
     end do
-    singular = .false.
-    if (p < 1) return
-    if (m > 0) call dsyrk('L', 'T', p, m, -1.0_dp, self%border, m, 1.0_dp, self%schur, limit)
+    if (m > 0) call dsyrk('L', 'T', p, m, -1.0_dp, self%border, m, 1.0_dp, self%schur, size(self%schur, 1))
     call check_added(self, diagonal, singular)
-    call add_soft_springs(self, alpha)
-    if (singular) return
-    call dsytrf('L', p, self%schur, limit, self%pivots, work, size(work), info)
-    singular = info /= 0
-    if (.not. singular) singular = negative_eigenvalues(self) /= count(self%keys(:p) < 0 .or. &
-                                                                 is_mode(self, self%keys(:p)))
-  end subroutine factor_schur
+  end subroutine fill_schur
+
+  !> Positions in the base set of the points removed, in the order of their borders, which follow those of all modes
+  !> where there is an inverse.
+  pure function removed_positions(self) result(positions)
+    class(kkt_factor), intent(in) :: self
+    integer :: positions(self%borders - size(self%modes, 2))
+
+    positions = self%position(-self%keys(size(self%modes, 2) + 1:self%borders))
+  end function removed_positions
 
   !> Are the points added singular beyond the base set, one by one or together? Their block of the Schur complement has
   !> a Cholesky factor with pivots beyond rounding if not. `diagonal` (borders) is that of alpha.
@@ -354,9 +463,8 @@ contains
     real(dp), intent(in) :: gap(:), load(:)
     real(dp), intent(out) :: force(:), motion(:)
     real(dp) :: in_base_set(size(self%base_set)), outer(self%borders)
-    integer :: j, m, n, p, info
+    integer :: j, n, p, info
 
-    m = size(self%base_set)
     n = size(self%position)
     p = self%borders
     in_base_set = -gap(self%base_set)
@@ -371,15 +479,21 @@ contains
         in_base_set(self%position(-self%keys(j))) = 0.0_dp
       end if
     end do
-    if (m > 0) call dtrsv('L', 'N', 'N', m, self%lower, m, in_base_set, 1)
-    if (m > 0 .and. p > 0) call dgemv('T', m, p, -1.0_dp, self%border, m, in_base_set, 1, 1.0_dp, outer, 1)
+    if (self%inverse%is_set()) then
+      call self%inverse%eliminate(removed_positions(self), in_base_set, outer)
+    else
+      call eliminate(self, in_base_set, outer)
+    end if
     if (p == 1) then
       outer = outer/self%schur(1, 1)
     else if (p > 0) then
       call dsytrs('L', p, 1, self%schur, size(self%schur, 1), self%pivots, outer, p, info)
     end if
-    if (m > 0 .and. p > 0) call dgemv('N', m, p, -1.0_dp, self%border, m, outer, 1, 1.0_dp, in_base_set, 1)
-    if (m > 0) call dtrsv('L', 'T', 'N', m, self%lower, m, in_base_set, 1)
+    if (self%inverse%is_set()) then
+      call self%inverse%substitute(removed_positions(self), outer, in_base_set)
+    else
+      call substitute(self, outer, in_base_set)
+    end if
 
     force = 0.0_dp
     force(self%base_set) = in_base_set
@@ -393,5 +507,31 @@ contains
       end if
     end do
   end subroutine solve
+
+  !> Forward elimination of the base set: its right-hand side `in_base_set`, and what is left of that of the borders,
+  !> `outer`.
+  subroutine eliminate(self, in_base_set, outer)
+    class(kkt_factor), intent(in) :: self
+    real(dp), intent(inout), contiguous :: in_base_set(:), outer(:)
+    integer :: m, p
+
+    m = size(in_base_set)
+    p = size(outer)
+    if (m > 0) call dtrsv('L', 'N', 'N', m, self%lower, m, in_base_set, 1)
+    if (m > 0 .and. p > 0) call dgemv('T', m, p, -1.0_dp, self%border, m, in_base_set, 1, 1.0_dp, outer, 1)
+  end subroutine eliminate
+
+  !> Back substitution: from the solution `outer` of the Schur complement to the forces `in_base_set`.
+  subroutine substitute(self, outer, in_base_set)
+    class(kkt_factor), intent(in) :: self
+    real(dp), intent(in), contiguous :: outer(:)
+    real(dp), intent(inout), contiguous :: in_base_set(:)
+    integer :: m, p
+
+    m = size(in_base_set)
+    p = size(outer)
+    if (m > 0 .and. p > 0) call dgemv('N', m, p, -1.0_dp, self%border, m, outer, 1, 1.0_dp, in_base_set, 1)
+    if (m > 0) call dtrsv('L', 'T', 'N', m, self%lower, m, in_base_set, 1)
+  end subroutine substitute
 
 end module fuge_kkt_factor

@@ -24,6 +24,8 @@ module fuge_kkt_solution
   real(dp), parameter :: RESIDUAL_ROUNDING = 2.0_dp**(-79)
   !> At most this many rows are gathered at a time.
   integer, parameter :: PANEL = 256
+  !> Where fewer than one in this many rows is left out, it costs less to use all of them than to gather the others.
+  integer, parameter :: ROWS_PER_GAP = 5
   !> The terms of at most this many points are compared.
   integer, parameter :: CANDIDATES = 8
 
@@ -160,6 +162,7 @@ contains
       loaded = points
       arrays%loaded(:loaded) = arrays%points(:points)
     end if
+    call fill_gaps(arrays%points, points)
     last = maxval(abs(force))
     arrays%changes(0) = last
     do step = 1, REFINEMENTS
@@ -234,9 +237,24 @@ contains
     end do
   end subroutine list_points
 
-  !> Residuals of the gaps (n), at the `points` of the contact only, and of equilibrium (m); `loaded` are the points
-  !> that may have a force. `high`, `low` and `column` are work space as long as `points`. The arguments are thirteen,
-  !> because three of them are work space that the caller keeps.
+  !> Add the points between the first `number` of `points` (n), if they are few: residuals are not read there.
+  pure subroutine fill_gaps(points, number)
+    integer, intent(inout) :: points(:), number
+    integer :: first, j, span
+
+    if (number < 1) return
+    first = points(1)
+    span = points(number) - first + 1
+    if ((span - number)*ROWS_PER_GAP >= span) return
+    do j = 1, span
+      points(j) = first + j - 1
+    end do
+    number = span
+  end subroutine fill_gaps
+
+  !> Residuals of the gaps (n), at the `points` of the contact and few others, and of equilibrium (m); `loaded` are the
+  !> points that may have a force. `high`, `low` and `column` are work space as long as `points`. The arguments are
+  !> thirteen, because three of them are work space that the caller keeps.
   pure subroutine find_residual(canonical, gap, gap_rounding, regularisation, points, loaded, force, motion, high, &
                                 low, column, residual, missing)
     type(canonical_problem), intent(in) :: canonical
