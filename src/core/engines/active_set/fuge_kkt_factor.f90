@@ -49,7 +49,8 @@ module fuge_kkt_factor
     logical, public :: expects_solves = .false.
     !> The matrix cannot be inverted without the loss of digits that matter.
     logical :: inverse_failed = .false.
-    !> Multiplications for base sets and borders since later solves are likely, or since the last inverse.
+    !> Multiplications for base sets and borders, since later solves are likely or since the last inverse, that an
+    !> inverse would have saved, less those that it would not.
     real(dp) :: spent = 0.0_dp
   contains
     procedure :: set
@@ -83,7 +84,7 @@ contains
     if (allocated(self%base_set)) then
       borders = size(canonical%modes, 2) + count(contact .neqv. (self%position > 0))
       ! An inverse has no points to add.
-      if (self%inverse%is_set() .and. any(contact .and. self%position < 1)) borders = huge(borders)
+      if (self%inverse%is_set .and. any(contact .and. self%position < 1)) borders = huge(borders)
     end if
     if (allocated(self%keys)) then
       if (borders <= size(self%keys)) then
@@ -117,12 +118,15 @@ contains
     end if
   end subroutine set
 
-  !> Count multiplications, if later solves are likely.
+  !> Count multiplications for the base set or its borders, if later solves are likely.
   pure subroutine count_cost(self, multiplications)
     class(kkt_factor), intent(inout) :: self
     real(dp), intent(in) :: multiplications
+    logical :: saved
 
-    if (self%expects_solves) self%spent = self%spent + multiplications
+    if (.not. self%expects_solves) return
+    saved = size(self%position) - size(self%base_set) <= size(self%position)/POINTS_PER_REMOVED
+    self%spent = max(self%spent + merge(multiplications, -multiplications, saved), 0.0_dp)
   end subroutine count_cost
 
   !> Is it time for an inverse? It costs the third power of the number of points, no more than has been spent then, and
@@ -155,7 +159,7 @@ contains
     if (status == FUGE_DONE) call self%factorise(canonical, contact .or. .not. canonical%excluded, status)
     if (status /= FUGE_DONE .or. self%regularisation > 0.0_dp) return
     call self%inverse%set(self%lower, self%diagonal, self%modes(self%base_set, :))
-    if (.not. self%inverse%is_set()) return
+    if (.not. self%inverse%is_set) return
     self%inverse_failed = .false.
     call update_borders(self, canonical%alpha, contact, failed)
   end subroutine invert_all
@@ -189,7 +193,7 @@ contains
     integer :: stat
 
     self%borders = 0
-    if (self%inverse%is_set()) self%inverse = kkt_inverse()
+    if (self%inverse%is_set) self%inverse = kkt_inverse()
     if (allocated(self%border)) deallocate (self%border)
     if (allocated(self%keys)) deallocate (self%keys)
     if (allocated(self%schur)) deallocate (self%schur)
@@ -208,7 +212,7 @@ contains
     integer :: target_keys(size(self%modes, 2) + count(contact .neqv. (self%position > 0)))
 
     target_keys = border_keys(self, contact, size(target_keys))
-    if (self%inverse%is_set()) then
+    if (self%inverse%is_set) then
       self%borders = size(target_keys)
       self%keys(:self%borders) = target_keys
     else
@@ -312,7 +316,7 @@ contains
     p = self%borders
     singular = .false.
     if (p < 1) return
-    if (self%inverse%is_set()) then
+    if (self%inverse%is_set) then
       call self%inverse%fill_schur(removed_positions(self), self%schur)
     else
       call fill_schur(self, alpha, singular)
@@ -479,7 +483,7 @@ contains
         in_base_set(self%position(-self%keys(j))) = 0.0_dp
       end if
     end do
-    if (self%inverse%is_set()) then
+    if (self%inverse%is_set) then
       call self%inverse%eliminate(removed_positions(self), in_base_set, outer)
     else
       call eliminate(self, in_base_set, outer)
@@ -489,7 +493,7 @@ contains
     else if (p > 0) then
       call dsytrs('L', p, 1, self%schur, size(self%schur, 1), self%pivots, outer, p, info)
     end if
-    if (self%inverse%is_set()) then
+    if (self%inverse%is_set) then
       call self%inverse%substitute(removed_positions(self), outer, in_base_set)
     else
       call substitute(self, outer, in_base_set)

@@ -19,13 +19,14 @@ module fuge_kkt_inverse
 
   type, public :: kkt_inverse
     private
+    !> There is an inverse.
+    logical, public :: is_set = .false.
     !> Inverse of the block, (points, points), both triangles.
     real(dp), allocatable :: inverse(:, :)
     !> Rigid modes at the points, and the inverse times them, (points, m).
     real(dp), allocatable :: modes(:, :), mode_image(:, :)
   contains
     procedure :: set
-    procedure :: is_set
     procedure :: fill_schur
     procedure :: eliminate
     procedure :: substitute
@@ -61,15 +62,8 @@ contains
     if (stat /= 0) return
     call move_alloc(image, self%mode_image)
     call move_alloc(lower, self%inverse)
+    self%is_set = .true.
   end subroutine set
-
-  !> Is there an inverse?
-  pure function is_set(self)
-    class(kkt_inverse), intent(in) :: self
-    logical :: is_set
-
-    is_set = allocated(self%inverse)
-  end function is_set
 
   !> The lower triangle of the Schur complement of all modes and, after them, of the points `removed`.
   pure subroutine fill_schur(self, removed, schur)
