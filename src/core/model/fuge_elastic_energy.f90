@@ -42,7 +42,8 @@ contains
     end do
     sums = [work, load]
     call space%add(sums)
-    works = [bounded_product(unit(1)*sums(1), unit(2)), bounded_product(datum*sums(2), sums(2))]
+    works = [bounded_product(bounded_product(unit(1), sums(1)), unit(2)), &
+             bounded_product(bounded_product(datum, sums(2)), sums(2))]
     ! A sum of as many works as these and those of all motions does not overflow.
     most = huge(energy)/real(2 + size(solution%motion), dp)
     energy = huge(energy)
