@@ -358,7 +358,7 @@ contains
     if (info%failed()) return
     call move_alloc(cases, deck%cases)
     call move_alloc(supports, deck%supports)
-    call move_alloc(paths, deck%paths)
+    deck%paths = paths
   end subroutine fuge_read_supports
 
   !> Add the supports that are `found` to those of a list; `reason`, with its place, if one contradicts the list.

@@ -44,7 +44,7 @@ module fuge_kkt_factor
     real(dp), allocatable :: schur(:, :)
     integer, allocatable :: pivots(:)
     !> Inverse of the block of all points, which are the base set then, in place of `lower` and `border`.
-    type(kkt_inverse) :: inverse
+    type(kkt_inverse) :: inverse = kkt_inverse()
     !> Later solves with the same matrix are likely, as there was one before: an inverse may be worth its cost.
     logical, public :: expects_solves = .false.
     !> The matrix cannot be inverted without the loss of digits that matter.
