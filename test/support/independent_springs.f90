@@ -70,7 +70,7 @@ contains
 
   !> Three points at x = -1, 0, 1 that may move up and down and tilt, the resultants 3 and 2, and a fourth one at x = 9
   !> that is excluded.
-  pure subroutine set_tilting_scene(scene)
+  subroutine set_tilting_scene(scene)
     type(contact_scene), intent(out) :: scene
 
     allocate (scene%gap(4), scene%excluded(4), scene%modes(4, 2), scene%load(2), scene%balance(4))

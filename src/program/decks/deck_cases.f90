@@ -101,7 +101,7 @@ contains
     type(case_results), intent(inout) :: results
     type(fuge_body) :: body
     type(fuge_case_solutions) :: solutions
-    type(fuge_condensed) :: condensed
+    type(fuge_condensed), target :: condensed
     type(fuge_info) :: condensation, step
     real(dp), allocatable :: u(:, :)
     integer :: j
@@ -185,6 +185,7 @@ contains
     real(dp) :: nowhere(3, 0), u(model%degrees())
     integer :: row
 
+    nowhere = 0.0_dp
     call fuge_find_mechanism(condensed, problem, u, search)
     if (search%failed()) return
     if (.not. any(abs(u) > 0.0_dp)) return
