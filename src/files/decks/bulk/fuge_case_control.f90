@@ -36,6 +36,7 @@ contains
 
   !> Read the subcases: their numbers, load sets and sets of supports (0: none) are `whole` of each record; that of
   !> subcase 0 is what all of them select. A deck without BEGIN BULK is bulk data alone, and none of it is read.
+  !> Subcases with different sets of equations, MPC, are refused: one stiffness matrix serves all of them.
   !> Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
   subroutine read_case_control(deck, subcases, info)
     type(input_deck), intent(inout) :: deck
