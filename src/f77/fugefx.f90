@@ -23,7 +23,8 @@ subroutine fugefx(n, h, estar, nelem, nbound, nthr, gap, nheld, f0, v0, tol, max
   type(fuge_info) :: outcome
 
   call set_options(FUGE_AUTO, tol, maxit, options)
-  call surface%set(n, h, estar, outcome, nelem, nbound, nthr)
+  options%threads = nthr
+  call surface%set(n, h, estar, outcome, nelem, nbound)
   if (.not. outcome%failed()) call set_translation(gap, nheld /= 0, f0, v0, problem, outcome)
   if (.not. outcome%failed()) call solver%solve(surface, problem, solution, outcome, options)
   info = outcome%status

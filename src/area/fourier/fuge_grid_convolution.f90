@@ -18,7 +18,7 @@ module fuge_grid_convolution
   use fuge_grid_plan, only: grid_plan, return_rows, stored_waves, take_rows, taken_rows
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
-  use fuge_threads, only: run_in_threads
+  use fuge_threads, only: run_in_threads, share, threads_here
   implicit none
   private
 
@@ -28,6 +28,9 @@ module fuge_grid_convolution
   integer, parameter :: COLUMNS = 16
   !> Rows whose distance in memory is a multiple of PAGE bytes displace each other from the cache.
   integer, parameter :: PAGE = 4096
+
+  !> Fewer cells are multiplied by one thread: waking others would take as long.
+  integer, parameter :: FEWEST_FOR_THREADS = 4096
 
   !> The spectrum of an even kernel.
   type, public :: grid_kernel
@@ -142,15 +145,15 @@ contains
 
   !> y = the convolution of x with the kernel.
   !>
-  !> `plan` of the kernel's lengths; `x` and `y` of its `n` cells, x continued by zeros; `threads` >= 1. With
+  !> `plan` of the kernel's lengths; `x` and `y` of its `n` cells, x continued by zeros. With
   !> `softening` >= 0 each number s of the spectrum becomes s/(1 + softening s): to the inverse of the kernel is added
   !> `softening`. Several threads may use kernel and plan at once. `status`: 0, or with y unchanged FUGE_ERR_CALL_ORDER,
   !> FUGE_ERR_SIZE, FUGE_ERR_MEMORY. The arrays have an explicit shape, because gfortran copies arrays to pass them as
   !> contiguous ones.
-  subroutine convolve(self, plan, n, x, y, threads, status, softening)
+  subroutine convolve(self, plan, n, x, y, status, softening)
     class(grid_kernel), intent(in), target :: self
     type(grid_plan), intent(in), target :: plan
-    integer, intent(in) :: n, threads
+    integer, intent(in) :: n
     real(dp), intent(in), target :: x(n)
     real(dp), intent(inout), target :: y(n)
     integer, intent(out) :: status
@@ -159,7 +162,7 @@ contains
     logical, allocatable, target :: zero(:)
     type(taken_rows) :: rows
     type(c_ptr) :: lines
-    integer :: stat
+    integer :: stat, threads
 
     status = FUGE_ERR_CALL_ORDER
     if (.not. allocated(self%spectrum) .or. plan%cells(1) < 1 .or. .not. plan%rows%owns_plans()) return
@@ -173,6 +176,8 @@ contains
     job%zero => zero
     call take_rows(plan%kept, row_stride(job%length(1), job%padded(1)), size(zero), rows, job%work, status)
     if (status /= FUGE_DONE) return
+    threads = 1
+    if (n >= FEWEST_FOR_THREADS) threads = threads_here()
     call allocate_values(2*maxval(plan%length) + 2, (COLUMNS + 2)*threads, lines, job%lines, status)
     if (status == FUGE_DONE) then
       call run_in_threads(threads, transform_rows, c_loc(job))
@@ -213,16 +218,6 @@ contains
     stride = 2*length*merge(2, 1, padded)
     if (mod(8*stride, PAGE) == 0) stride = stride + 8
   end function row_stride
-
-  !> The numbers `first` .. `last` out of 0 .. n - 1 of part 0, 1, .. of `parts`.
-  pure subroutine share(n, part, parts, first, last)
-    integer, intent(in) :: n, part, parts
-    integer, intent(out) :: first, last
-
-    first = part*(n/parts) + min(part, mod(n, parts))
-    last = first + n/parts - 1
-    if (part < mod(n, parts)) last = last + 1
-  end subroutine share
 
   !> Buffers of a thread.
   subroutine find_lines(job, part, lines)

@@ -16,9 +16,6 @@ module fuge_halfspace_fft
   implicit none
   private
 
-  !> A coarser grid of fewer cells is multiplied by one thread: starting more would take longer.
-  integer, parameter :: FEWEST_FOR_THREADS = 65536
-
   !> Equal rectangles in a grid on a half-space: call `set`, then solve. It keeps the coarser grids of its
   !> solves, which takes a third of the memory again.
   !>
@@ -29,7 +26,6 @@ module fuge_halfspace_fft
     type(halfspace_grid) :: surface
     !> Subtracted from all coefficients; length per force.
     real(dp) :: datum_value = 0.0_dp
-    integer :: threads = 1
     logical :: measured = .false.
     !> Transforms of rows and columns, of a free surface with some more cells to lengths that are fast.
     type(grid_plan) :: plan
@@ -38,7 +34,6 @@ module fuge_halfspace_fft
     type(grid_kernel) :: influence, inverse
   contains
     procedure :: set
-    procedure :: set_threads
     procedure :: points
     procedure :: apply
     procedure :: datum
@@ -65,18 +60,18 @@ contains
   !> surface, so that A is singular: equal forces on all cells displace nothing; FUGE_PERIODIC_X, FUGE_PERIODIC_Y: in
   !> one direction only. Then the mean along that direction is displaced as a half-plane, by a logarithm without a
   !> datum at infinity: displacements are zero, as those of `fuge_halfplane_operator`, at the distance of twice the
-  !> length of the grid along the free direction, ny*spacing_y for FUGE_PERIODIC_X. `threads` (default 1) share each
-  !> product; `measured` (default .false.) lets FFTW time its algorithms and take the fastest.
-  !> The arguments are ten, because the last four are optional and named by the caller.
+  !> length of the grid along the free direction, ny*spacing_y for FUGE_PERIODIC_X. `measured`
+  !> (default .false.) lets FFTW time its algorithms and take the fastest.
+  !> The arguments are nine, because the last three are optional and named by the caller.
   !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
   !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a
   !> library without FFTW.
-  subroutine set(self, nx, ny, spacing_x, spacing_y, e_star, info, element, boundary, threads, measured)
+  subroutine set(self, nx, ny, spacing_x, spacing_y, e_star, info, element, boundary, measured)
     class(fuge_halfspace_operator), intent(inout) :: self
     integer, intent(in) :: nx, ny
     real(dp), intent(in) :: spacing_x, spacing_y, e_star
     type(fuge_info), intent(out) :: info
-    integer, intent(in), optional :: element, boundary, threads
+    integer, intent(in), optional :: element, boundary
     logical, intent(in), optional :: measured
     type(fuge_halfspace_operator) :: new
 
@@ -85,10 +80,8 @@ contains
     new%surface%e_star = e_star
     if (present(element)) new%surface%element = element
     if (present(boundary)) new%surface%boundary = boundary
-    if (present(threads)) new%threads = threads
     if (present(measured)) new%measured = measured
     call check_grid(new%surface, info)
-    if (.not. info%failed()) call check_threads(new%threads, info)
     if (info%failed()) return
     call complete(new%surface)
     call prepare(new, info)
@@ -108,30 +101,6 @@ contains
     if (status /= 0) call report_no_memory(operator, info)
     if (.not. info%failed()) call operator%make_room(count_coarser(operator%surface))
   end subroutine prepare
-
-  !> Let `threads` >= 1 threads share each product from now on. Not during a solve. Errors, which leave the operator
-  !> as it was: FUGE_ERR_CALL_ORDER before `set`, FUGE_ERR_OPTION.
-  subroutine set_threads(self, threads, info)
-    class(fuge_halfspace_operator), intent(inout) :: self
-    integer, intent(in) :: threads
-    type(fuge_info), intent(out) :: info
-
-    if (any(self%surface%cells < 1)) then
-      call report(info, FUGE_ERR_CALL_ORDER, 'the operator has no cells: set it before its threads')
-    else
-      call check_threads(threads, info)
-    end if
-    if (info%failed()) return
-    self%threads = threads
-    call self%make_room(count_coarser(self%surface))
-  end subroutine set_threads
-
-  pure subroutine check_threads(threads, info)
-    integer, intent(in) :: threads
-    type(fuge_info), intent(inout) :: info
-
-    if (threads < 1) call report(info, FUGE_ERR_OPTION, 'threads = '//text(threads)//': use 1 or more')
-  end subroutine check_threads
 
   !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
   subroutine plan_transforms(operator, info)
@@ -174,7 +143,6 @@ contains
 
     self%surface = source%surface
     self%datum_value = source%datum_value
-    self%threads = source%threads
     self%measured = source%measured
   end subroutine copy_numbers
 
@@ -218,7 +186,7 @@ contains
 
     call self%check_sizes(size(force), size(displacement), status)
     if (status /= FUGE_DONE) return
-    call self%influence%convolve(self%plan, size(force), force, displacement, self%threads, status)
+    call self%influence%convolve(self%plan, size(force), force, displacement, status)
   end subroutine apply
 
   !> The number subtracted from all coefficients, length per force; 0 unless one direction only is periodic.
@@ -252,7 +220,7 @@ contains
 
     call self%check_sizes(size(displacement), size(force), status)
     if (status /= FUGE_DONE) return
-    call self%inverse%convolve(self%plan, size(force), displacement, force, self%threads, status)
+    call self%inverse%convolve(self%plan, size(force), displacement, force, status)
   end subroutine precondition
 
   !> True after `set`.
@@ -272,7 +240,7 @@ contains
 
     call self%check_sizes(size(displacement), size(force), status)
     if (status /= FUGE_DONE) return
-    call self%inverse%convolve(self%plan, size(displacement), displacement, force, self%threads, status, compliance)
+    call self%inverse%convolve(self%plan, size(displacement), displacement, force, status, compliance)
   end subroutine precondition_on_bed
 
   !> [nx, ny].
@@ -300,7 +268,6 @@ contains
     call copy_numbers(wider, self)
     wider%surface = coarsened(self%surface, levels)
     wider%measured = .false.
-    if (wider%points() < FEWEST_FOR_THREADS) wider%threads = 1
     call prepare(wider, info)
     if (.not. info%failed()) call move_alloc(wider, coarse)
   end subroutine coarsen

@@ -65,29 +65,6 @@ contains
     status = report_to_c(info, message, length)
   end function c_operator_halfplane
 
-  function c_operator_set_threads(operator, threads, message, length) &
-    bind(c, name='fuge_operator_set_threads') result(status)
-    type(c_ptr), intent(in), value :: operator, message
-    integer(c_int), intent(in), value :: threads
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    type(operator_handle), pointer :: handle
-    type(fuge_info) :: info
-
-    call find_operator(operator, 'op', handle, info)
-    if (.not. info%failed()) then
-      select type (surface => handle%operator)
-      class is (grid_operator)
-        call surface%set_threads(int(threads), info)
-      class default
-        call report(info, FUGE_ERR_UNSUPPORTED, 'only operators of fuge_operator_halfplane and ' &
-                    //'fuge_operator_halfspace have transforms for several threads: a matrix is multiplied by BLAS, ' &
-                    //'which has threads of its own')
-      end select
-    end if
-    status = report_to_c(info, message, length)
-  end function c_operator_set_threads
-
   function c_operator_apply(operator, n, force, displacement, message, length) &
     bind(c, name='fuge_operator_apply') result(status)
     type(c_ptr), intent(in), value :: operator, force, displacement, message

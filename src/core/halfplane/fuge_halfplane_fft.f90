@@ -20,9 +20,6 @@ module fuge_halfplane_fft
 
   public :: FUGE_FREE, FUGE_PERIODIC
 
-  !> A coarser grid of fewer cells is transformed by one thread: starting more would take longer.
-  integer, parameter :: FEWEST_FOR_THREADS = 32768
-
   !> Equal cells side by side on a half-plane: call `set`, then solve. It keeps the coarser grids of its
   !> solves, which takes as much memory again.
   !>
@@ -40,7 +37,6 @@ module fuge_halfplane_fft
     type(convolution_kernel) :: influence, inverse
   contains
     procedure :: set
-    procedure :: set_threads
     procedure :: points
     procedure :: apply
     procedure :: datum
@@ -63,18 +59,17 @@ contains
   !> two are the same on a uniform grid. `boundary` FUGE_FREE (default): the matrix of
   !> `fuge_halfplane_matrix`; FUGE_PERIODIC: the period is n*spacing, and displacements
   !> count from the mean of the surface, so that A is singular: equal forces on all
-  !> cells displace nothing. `threads` (default 1) is the number for each transform;
-  !> `measured` (default .false.) lets FFTW time its algorithms and take the fastest. The
-  !> arguments are nine, because the last four are optional and named by the caller.
+  !> cells displace nothing. `measured` (default .false.) lets FFTW time its algorithms and take the fastest. The
+  !> arguments are eight, because the last three are optional and named by the caller.
   !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
   !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a
   !> library without FFTW.
-  subroutine set(self, n, spacing, e_star, info, element, boundary, threads, measured)
+  subroutine set(self, n, spacing, e_star, info, element, boundary, measured)
     class(fuge_halfplane_operator), intent(inout) :: self
     integer, intent(in) :: n
     real(dp), intent(in) :: spacing, e_star
     type(fuge_info), intent(out) :: info
-    integer, intent(in), optional :: element, boundary, threads
+    integer, intent(in), optional :: element, boundary
     logical, intent(in), optional :: measured
     type(fuge_halfplane_operator) :: new
 
@@ -84,41 +79,23 @@ contains
     if (present(element)) new%line%element = element
     if (present(boundary)) new%line%boundary = boundary
     call check_line(new%line, info)
-    if (.not. info%failed()) call plan_transforms(new, info, threads, measured)
+    if (.not. info%failed()) call plan_transforms(new, info, measured)
     if (.not. info%failed()) call compute_line_spectra(new%line, new%plan, new%influence, new%inverse, &
                                                        new%datum_value, info)
     if (.not. info%failed()) call new%make_room(count_coarser(n))
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
 
-  !> Let `threads` >= 1 threads share each transform from now on; the products change by rounding only. Not
-  !> during a solve. Errors, which leave the operator as it was: FUGE_ERR_CALL_ORDER before `set`,
-  !> FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
-  subroutine set_threads(self, threads, info)
-    class(fuge_halfplane_operator), intent(inout) :: self
-    integer, intent(in) :: threads
-    type(fuge_info), intent(out) :: info
-
-    if (self%line%cells < 1) then
-      call report(info, FUGE_ERR_CALL_ORDER, 'the operator has no cells: set it before its threads')
-      return
-    end if
-    call self%plan%set(self%plan%length, info, threads, self%plan%measured)
-    if (info%failed()) return
-    call self%make_room(count_coarser(self%line%cells))
-  end subroutine set_threads
-
   !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
-  subroutine plan_transforms(operator, info, threads, measured)
+  subroutine plan_transforms(operator, info, measured)
     type(fuge_halfplane_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
-    integer, intent(in), optional :: threads
     logical, intent(in), optional :: measured
     integer :: length
 
     call circle_of(operator%line, length, info)
     if (info%failed()) return
-    call operator%plan%set(length, info, threads, measured)
+    call operator%plan%set(length, info, measured=measured)
     if (info%status == FUGE_ERR_MEMORY) call report(info, FUGE_ERR_MEMORY, 'n = '//text(operator%line%cells)//': ' &
                                                     //composed_message(info))
   end subroutine plan_transforms
@@ -249,14 +226,13 @@ contains
     type(fuge_halfplane_operator), allocatable :: wider
     type(fuge_info) :: info
     type(halfplane_line) :: line
-    integer :: stat, threads
+    integer :: stat
 
     line = coarsened(self%line, levels)
     if (line%cells < 1) return
     allocate (wider, stat=stat)
     if (stat /= 0) return
-    threads = merge(self%plan%threads, 1, line%cells >= FEWEST_FOR_THREADS)
-    call wider%set(line%cells, line%spacing, line%e_star, info, line%element, line%boundary, threads)
+    call wider%set(line%cells, line%spacing, line%e_star, info, line%element, line%boundary)
     if (.not. info%failed()) call move_alloc(wider, coarse)
   end subroutine coarsen
 

@@ -14,7 +14,6 @@ module fuge_grid_operator_type
     !> The coarser grids of its solves.
     type(grid_store), private :: coarser
   contains
-    procedure(share_products), deferred :: set_threads
     procedure :: make_room
     procedure :: take_coarser
     procedure :: drop_coarser
@@ -23,17 +22,6 @@ module fuge_grid_operator_type
     procedure :: check_sizes
     procedure :: kept_coarser
   end type grid_operator
-
-  abstract interface
-    !> Let `threads` >= 1 threads share each product from now on. Errors: FUGE_ERR_CALL_ORDER before the cells are set,
-    !> FUGE_ERR_OPTION, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED.
-    subroutine share_products(self, threads, info)
-      import :: grid_operator, fuge_info
-      class(grid_operator), intent(inout) :: self
-      integer, intent(in) :: threads
-      type(fuge_info), intent(out) :: info
-    end subroutine share_products
-  end interface
 
 contains
 

@@ -41,6 +41,8 @@ module fuge_options_type
     logical :: keep_history = .false.
     !> Largest residual without a warning; relative, no unit.
     real(dp) :: tolerance = 1.0e-10_dp
+    !> Threads that share the work of a solve, which changes no result; 0 for all cores that the process may use.
+    integer :: threads = 1
   end type fuge_options
 
 contains
@@ -62,6 +64,9 @@ contains
     else if (.not. is_between_0_and_1(options%tolerance)) then
       call report(info, FUGE_ERR_OPTION, 'tolerance = '//text(options%tolerance) &
         //' is not between 0 and 1: it is relative, 1e-10 is the default')
+    else if (options%threads < 0) then
+      call report(info, FUGE_ERR_OPTION, 'threads = '//text(options%threads) &
+        //' is negative: use 0 for all cores, 1 for one thread, or more')
     end if
   end subroutine check_options
 

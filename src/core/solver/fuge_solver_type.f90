@@ -19,6 +19,7 @@ module fuge_solver_type
   use fuge_shared_problem, only: check_shared_problem, differ
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, &
     FUGE_ERR_OPTION
+  use fuge_threads, only: thread_team, usable_threads
   use fuge_unloaded_contact, only: is_unloaded, solve_without_load
   implicit none
   private
@@ -75,6 +76,7 @@ contains
     type(fuge_solution) :: candidate
     type(monitor_relay) :: relay
     type(point_space) :: space
+    type(thread_team) :: team
 
     if (present(options)) chosen = options
     if (present(monitor)) relay%listener => monitor
@@ -94,6 +96,8 @@ contains
     if (.not. (space%is_alone() .or. info%failed())) call check_shared_problem(problem, chosen, space, info)
     if (info%failed()) return
 
+    if (chosen%threads == 0) chosen%threads = usable_threads()
+    call team%begin(chosen%threads)
     if (is_unloaded(problem)) then
       call solve_without_load(problem, space, candidate, info)
       if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
@@ -101,8 +105,8 @@ contains
       self%solved_by_products = takes_products(operator, chosen)
       if (self%solved_by_products) then
         call require_product_engine(self%by_products, space, info)
-        if (info%failed()) return
-        call solve_again_if_misled(self%by_products, operator, problem, chosen, relay, self%history, candidate, info)
+        if (.not. info%failed()) call solve_again_if_misled(self%by_products, operator, problem, chosen, relay, &
+                                                            self%history, candidate, info)
       else
         call solve_again_if_misled(self%by_matrix, operator, problem, chosen, relay, self%history, candidate, info)
       end if
@@ -110,6 +114,7 @@ contains
                                                          //text(relay%reported)//' by the progress monitor')
       self%has_solution = .not. info%failed()
     end if
+    call team%end()
     if (info%failed()) then
       ! A factor from which no accepted solution came is no start for the next solve.
       call self%by_matrix%distrust_start()

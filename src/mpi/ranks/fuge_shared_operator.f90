@@ -26,7 +26,6 @@ module fuge_shared_operator
     type(c_ptr), private :: group_owner = c_null_ptr
   contains
     procedure(find_rows), deferred :: own_rows
-    procedure :: set_threads
     procedure :: comm
     procedure :: ranks
     procedure :: is_shared
@@ -121,20 +120,6 @@ contains
                   //' and options on all of them')
     end if
   end subroutine check_same
-
-  !> FUGE_ERR_UNSUPPORTED: ranks share the products. FUGE_ERR_CALL_ORDER before `set`.
-  subroutine set_threads(self, threads, info)
-    class(shared_operator), intent(inout) :: self
-    integer, intent(in) :: threads
-    type(fuge_info), intent(out) :: info
-
-    if (self%is_shared()) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'threads = '//text(threads)//': ranks share the products of this ' &
-                  //'operator, and each of them has one thread')
-    else
-      call report(info, FUGE_ERR_CALL_ORDER, 'the operator has no cells: set it before its threads')
-    end if
-  end subroutine set_threads
 
   !> The communicator of the operator, a duplicate of that of `set`; only after `set`.
   function comm(self)
