@@ -1,4 +1,4 @@
-# FFTW in double precision, with threads: targets FFTW::fftw and FFTW::threads.
+# FFTW in double and single precision, with threads: targets FFTW::fftw and FFTW::threads.
 # FFTW_ROOT or CMAKE_PREFIX_PATH leads to a copy in a nonstandard location. FFTW_LIBRARY may be another library with
 # FFTW's interface, such as libmkl_rt of MKL.
 find_package(PkgConfig QUIET)
@@ -7,16 +7,21 @@ if(PkgConfig_FOUND)
 endif()
 find_library(FFTW_LIBRARY NAMES fftw3 libfftw3-3 HINTS ${PC_FFTW_LIBRARY_DIRS})
 if(FFTW_LIBRARY MATCHES "mkl")
-  # One library has the threads too.
+  # One library has single precision and the threads too.
   set(FFTW_THREADS_LIBRARY "${FFTW_LIBRARY}")
+  set(FFTW_SINGLE_LIBRARY "${FFTW_LIBRARY}")
+  set(FFTW_SINGLE_THREADS_LIBRARY "${FFTW_LIBRARY}")
 else()
   find_library(FFTW_THREADS_LIBRARY NAMES fftw3_threads HINTS ${PC_FFTW_LIBRARY_DIRS})
+  find_library(FFTW_SINGLE_LIBRARY NAMES fftw3f libfftw3f-3 HINTS ${PC_FFTW_LIBRARY_DIRS})
+  find_library(FFTW_SINGLE_THREADS_LIBRARY NAMES fftw3f_threads HINTS ${PC_FFTW_LIBRARY_DIRS})
 endif()
-mark_as_advanced(FFTW_LIBRARY FFTW_THREADS_LIBRARY)
+mark_as_advanced(FFTW_LIBRARY FFTW_THREADS_LIBRARY FFTW_SINGLE_LIBRARY FFTW_SINGLE_THREADS_LIBRARY)
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(FFTW REQUIRED_VARS FFTW_LIBRARY FFTW_THREADS_LIBRARY
-  REASON_FAILURE_MESSAGE "install FFTW 3.3.9 or newer with threads (Debian: libfftw3-dev)")
+  FFTW_SINGLE_LIBRARY FFTW_SINGLE_THREADS_LIBRARY
+  REASON_FAILURE_MESSAGE "install FFTW 3.3.9 or newer in double and single precision, with threads (Debian: libfftw3-dev)")
 
 if(FFTW_FOUND AND NOT TARGET FFTW::threads)
   # A static copy does not name the libraries that it needs.
@@ -29,6 +34,7 @@ if(FFTW_FOUND AND NOT TARGET FFTW::threads)
     IMPORTED_LOCATION "${FFTW_LIBRARY}" INTERFACE_LINK_LIBRARIES "${fftw_needs}")
   add_library(FFTW::threads UNKNOWN IMPORTED)
   set_target_properties(FFTW::threads PROPERTIES
-    IMPORTED_LOCATION "${FFTW_THREADS_LIBRARY}" INTERFACE_LINK_LIBRARIES FFTW::fftw)
+    IMPORTED_LOCATION "${FFTW_THREADS_LIBRARY}"
+    INTERFACE_LINK_LIBRARIES "${FFTW_SINGLE_THREADS_LIBRARY};${FFTW_SINGLE_LIBRARY};FFTW::fftw")
   unset(fftw_needs)
 endif()

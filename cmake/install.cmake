@@ -72,7 +72,7 @@ set(fftw)
 set(with_fftw OFF)
 if(FUGE_WITH_FFTW)
   set(with_fftw ON)
-  set(fftw ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY})
+  set(fftw ${FFTW_THREADS_LIBRARY} ${FFTW_LIBRARY} ${FFTW_SINGLE_THREADS_LIBRARY} ${FFTW_SINGLE_LIBRARY})
 endif()
 fuge_install_library(fuge fuge DESCRIPTION "${PROJECT_DESCRIPTION}" NEEDS ${LAPACK_LIBRARIES} ${fftw})
 # A static and a shared library in one prefix may differ in this.

@@ -7,10 +7,12 @@ module fuge_halfspace_fft
   use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, count_coarser, halfspace_grid, &
     least_magnitude, periodic
   use fuge_halfspace_spectra, only: bytes_needed, compute_spectra
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: dp, sp
   use fuge_memory, only: check_memory
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
+  use fuge_single_grid_convolution, only: round_kernel, single_kernel => grid_kernel
+  use fuge_single_grid_plan, only: single_plan => grid_plan
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
     FUGE_ERR_OPTION
   implicit none
@@ -32,6 +34,9 @@ module fuge_halfspace_fft
     !> The eigenvalues of the circulant matrix that holds A, and those of the preconditioner's, the inverse
     !> of a periodic surface.
     type(grid_kernel) :: influence, inverse
+    !> The same in single precision, where the numbers allow it.
+    type(single_plan) :: single
+    type(single_kernel) :: single_influence, single_inverse
   contains
     procedure :: set
     procedure :: points
@@ -39,6 +44,10 @@ module fuge_halfspace_fft
     procedure :: datum
     procedure :: magnitude => halfspace_magnitude
     procedure :: precondition
+    procedure :: has_single
+    procedure :: apply_single
+    procedure :: precondition_single
+    procedure :: common_magnitude
     procedure :: has_preconditioner_on_bed
     procedure :: precondition_on_bed
     procedure :: grid
@@ -99,8 +108,24 @@ contains
     call compute_spectra(operator%surface, operator%plan, operator%influence, operator%inverse, operator%datum_value, &
                          status)
     if (status /= 0) call report_no_memory(operator, info)
-    if (.not. info%failed()) call operator%make_room(count_coarser(operator%surface))
+    if (info%failed()) return
+    call prepare_single(operator)
+    call operator%make_room(count_coarser(operator%surface))
   end subroutine prepare
+
+  !> Round the spectra to single precision. Lines of an odd number of cells would not be aligned. Where memory is short
+  !> there are no such products.
+  subroutine prepare_single(operator)
+    class(fuge_halfspace_operator), intent(inout) :: operator
+    type(fuge_info) :: info
+    integer :: status
+
+    if (any(mod(operator%plan%length, 2) /= 0)) return
+    call operator%single%set(operator%surface%cells, operator%plan%length, info, operator%measured)
+    if (info%failed()) return
+    call round_kernel(operator%inverse, operator%single_inverse, status)
+    if (status == 0) call round_kernel(operator%influence, operator%single_influence, status)
+  end subroutine prepare_single
 
   !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
   subroutine plan_transforms(operator, info)
@@ -134,6 +159,9 @@ contains
     call self%influence%move_from(new%influence)
     call self%inverse%move_from(new%inverse)
     call self%plan%move_from(new%plan)
+    call self%single%move_from(new%single)
+    call self%single_influence%move_from(new%single_influence)
+    call self%single_inverse%move_from(new%single_inverse)
     call self%take_coarser(new)
   end subroutine move_contents
 
@@ -163,6 +191,9 @@ contains
     self%surface%cells = 0
     if (stat /= 0 .or. self%plan%cells(1) < 1) return
     self%surface%cells = cells
+    call self%single_influence%copy_from(source%single_influence, stat)
+    if (stat == 0) call self%single_inverse%copy_from(source%single_inverse, stat)
+    call self%single%copy_from(source%single)
     call self%make_room(count_coarser(self%surface))
   end subroutine copy
 
@@ -204,7 +235,7 @@ contains
     real(dp), intent(in) :: force(:), displacement(:)
     real(dp), intent(out) :: magnitude(:)
 
-    magnitude = max(maxval(abs(displacement)), least_magnitude(self%surface, sum(abs(force))))
+    magnitude = self%common_magnitude(maxval(abs(displacement)), sum(abs(force)))
   end subroutine halfspace_magnitude
 
   !> The inverse on a periodic surface, exact except for the constant. A free surface is taken
@@ -242,6 +273,46 @@ contains
     if (status /= FUGE_DONE) return
     call self%inverse%convolve(self%plan, size(displacement), displacement, force, status, compliance)
   end subroutine precondition_on_bed
+
+  !> True after `set`, unless the numbers of the spectra are out of the range of single precision, or the cells of a
+  !> circle are odd in number.
+  function has_single(self) result(single)
+    class(fuge_halfspace_operator), intent(in) :: self
+    logical :: single
+
+    single = self%single_influence%is_set() .and. self%single_inverse%is_set()
+  end function has_single
+
+  !> `apply` in single precision.
+  subroutine apply_single(self, input, result, status)
+    class(fuge_halfspace_operator), intent(in) :: self
+    real(sp), intent(in) :: input(:)
+    real(sp), intent(out) :: result(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(input), size(result), status)
+    if (status == FUGE_DONE) call self%single_influence%convolve(self%single, size(input), input, result, status)
+  end subroutine apply_single
+
+  !> `precondition` in single precision.
+  subroutine precondition_single(self, input, result, status)
+    class(fuge_halfspace_operator), intent(in) :: self
+    real(sp), intent(in) :: input(:)
+    real(sp), intent(out) :: result(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(input), size(result), status)
+    if (status == FUGE_DONE) call self%single_inverse%convolve(self%single, size(input), input, result, status)
+  end subroutine precondition_single
+
+  !> As `magnitude`.
+  function common_magnitude(self, largest, total) result(magnitude)
+    class(fuge_halfspace_operator), intent(in) :: self
+    real(dp), intent(in) :: largest, total
+    real(dp) :: magnitude
+
+    magnitude = max(largest, least_magnitude(self%surface, total))
+  end function common_magnitude
 
   !> [nx, ny].
   function grid(self) result(cells)

@@ -4,9 +4,9 @@
 !> forces with zero resultant; u is positive into the body.
 module fuge_operator_type
   use fuge_input_checks, only: is_finite_everywhere
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: dp, sp
   use fuge_point_space, only: point_space
-  use fuge_status, only: FUGE_DONE, FUGE_ERR_OPTION, FUGE_ERR_SIZE
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_OPTION, FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
   implicit none
   private
 
@@ -34,6 +34,14 @@ module fuge_operator_type
     procedure :: has_preconditioner_on_bed => without_bed
     !> f = M u, with M symmetric, positive definite and close to the inverse of A + compliance.
     procedure :: precondition_on_bed => ignore_bed
+    !> Are there products and a preconditioner in single precision?
+    procedure :: has_single => without_single
+    !> u = (A - datum) f in single precision.
+    procedure :: apply_single => no_single
+    !> f = M u in single precision.
+    procedure :: precondition_single => no_single
+    !> The size of the terms of the displacements, if it is the same for all points.
+    procedure :: common_magnitude => no_common_magnitude
     !> The equal cells of a grid that the points are, in each direction.
     procedure :: grid => no_grid
     !> Does the surface go on beyond the grid, free, in each direction?
@@ -112,6 +120,37 @@ contains
     call self%precondition(displacement, force, status)
     if (.not. compliance >= 0.0_dp) status = FUGE_ERR_OPTION
   end subroutine ignore_bed
+
+  !> False by default: all products are in double precision.
+  function without_single(self) result(single)
+    class(fuge_operator), intent(in) :: self
+    logical :: single
+
+    single = self%points() < 0
+  end function without_single
+
+  !> As `apply`, or as `precondition`, with errors of some 1e-7 of the largest result; called only if `has_single` is
+  !> true.
+  subroutine no_single(self, input, result, status)
+    class(fuge_operator), intent(in) :: self
+    real(sp), intent(in) :: input(:)
+    real(sp), intent(out) :: result(:)
+    integer, intent(out) :: status
+
+    result = 0.0_sp
+    status = merge(FUGE_ERR_UNSUPPORTED, FUGE_ERR_SIZE, self%points() == size(input))
+  end subroutine no_single
+
+  !> What `magnitude` would give every point, where `largest` is the largest magnitude of a displacement and `total` the
+  !> sum of the magnitudes of the forces; negative, as in this default, where points differ, or may.
+  function no_common_magnitude(self, largest, total) result(magnitude)
+    class(fuge_operator), intent(in) :: self
+    real(dp), intent(in) :: largest, total
+    real(dp) :: magnitude
+
+    magnitude = -1.0_dp
+    if (self%points() < 0) magnitude = -(largest + total)
+  end function no_common_magnitude
 
   !> [nx, ny] if the points are equal cells of a grid, the number i + nx*(j - 1) for the cell i of row j; [n, 1]
   !> for cells side by side. [0, 0], as in this default, if the positions of the points are unknown.

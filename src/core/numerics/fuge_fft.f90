@@ -14,12 +14,14 @@
 !> FFTW keeps its threads for the next transform. A process that is forked has none of them and would wait for them for
 !> ever, so there `fuge_threads` starts threads for each transform.
 module fuge_fft
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_funloc, c_int, c_loc, c_null_ptr, &
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_float, c_funloc, c_int, c_loc, c_null_ptr, &
     c_ptr, c_size_t
   use fuge_fftw, only: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, &
     fftw_init_threads, fftw_malloc, fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, &
-    fftw_plan_r2c, fftw_plan_with_nthreads, FFTW_ESTIMATE, FFTW_FORWARD, FFTW_MEASURE, FFTW_NO_BUFFERING, HAS_FFTW
-  use fuge_fftw_planner, only: fftw_make_planner_thread_safe, fftw_planner_nthreads, fftw_threads_set_callback
+    fftw_plan_r2c, fftw_plan_with_nthreads, fftwf_destroy_plan, fftwf_execute_c2c, fftwf_plan_c2c, FFTW_ESTIMATE, &
+    FFTW_FORWARD, FFTW_MEASURE, FFTW_NO_BUFFERING, HAS_FFTW
+  use fuge_fftw_planner, only: fftw_make_planner_thread_safe, fftw_planner_nthreads, fftw_threads_set_callback, &
+    fftwf_make_planner_thread_safe
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_PLANNER
   use fuge_number_text, only: text
@@ -48,6 +50,8 @@ module fuge_fft
     logical :: measured = .false.
     !> Transforms of packed values from one buffer to another, by `transform_to`, instead of in place.
     logical :: separate = .false.
+    !> In single precision; only with `separate`.
+    logical :: single = .false.
     !> Lines of `length` values that are transformed together, in both directions; 0: one line, packed where possible.
     integer :: lines = 0
     type(c_ptr), private :: forward = c_null_ptr
@@ -70,6 +74,11 @@ module fuge_fft
     generic :: assignment(=) => copy
     final :: finish
   end type fft_plan
+
+  !> Lines of real numbers for transforms.
+  interface allocate_values
+    module procedure :: allocate_double, allocate_single
+  end interface allocate_values
 
 contains
 
@@ -107,15 +116,15 @@ contains
   !> `threads` (default 1) share each transform; with `measured` (default .false.) FFTW measures which algorithm is
   !> fastest, which takes seconds for long transforms. `separate` (default .false.) plans for `transform_to`; then
   !> `length` must be even. With `lines` >= 1 the values are a grid of as many lines, transformed in both directions;
-  !> then `separate` is not allowed.
+  !> then `separate` is not allowed. `single` (default .false.) needs `separate`.
   !> Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_OPTION, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a library
   !> that was built without FFTW.
-  subroutine set(self, length, info, threads, measured, separate, lines)
+  subroutine set(self, length, info, threads, measured, separate, lines, single)
     class(fft_plan), intent(inout) :: self
     integer, intent(in) :: length
     type(fuge_info), intent(inout) :: info
     integer, intent(in), optional :: threads, lines
-    logical, intent(in), optional :: measured, separate
+    logical, intent(in), optional :: measured, separate, single
     type(fft_plan) :: new_plan
 
     new_plan%length = length
@@ -123,6 +132,7 @@ contains
     if (present(measured)) new_plan%measured = measured
     if (present(separate)) new_plan%separate = separate
     if (present(lines)) new_plan%lines = lines
+    if (present(single)) new_plan%single = single
     if (length < 1) then
       call report(info, FUGE_ERR_SIZE, 'length = '//text(length)//': a transform needs at least one value')
     else if (new_plan%separate .and. mod(length, 2) /= 0) then
@@ -157,7 +167,7 @@ contains
     else if (c_associated(plan%forward) .and. (c_associated(plan%backward) .or. plan%is_packed())) then
       call plan%own_plans()
     else
-      call destroy(plan%forward, plan%backward)
+      call destroy(plan%single, plan%forward, plan%backward)
       call report(info, FUGE_ERR_MEMORY, 'no memory: a transform of '//text(plan%length)//' values needs ' &
                   //text(3.0_dp*real(buffer_bytes(plan), dp))//' bytes')
     end if
@@ -175,6 +185,7 @@ contains
     integer(c_int) :: before, flags
 
     call fftw_make_planner_thread_safe()
+    call fftwf_make_planner_thread_safe()
     ! The host program may have set another number of threads.
     before = fftw_planner_nthreads()
     if (before /= plan%threads) call fftw_plan_with_nthreads(int(plan%threads, c_int))
@@ -186,7 +197,11 @@ contains
       if (plan%separate) then
         other = fftw_malloc(buffer_bytes(plan))
         if (c_associated(other)) then
-          plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, other, FFTW_FORWARD, flags)
+          if (plan%single) then
+            plan%forward = fftwf_plan_c2c(int(plan%length/2, c_int), buffer, other, FFTW_FORWARD, flags)
+          else
+            plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, other, FFTW_FORWARD, flags)
+          end if
           call fftw_free(other)
         end if
       else if (plan%lines > 0) then
@@ -224,7 +239,7 @@ contains
   subroutine free(self)
     class(fft_plan), intent(inout) :: self
 
-    if (self%owns_plans()) call destroy(self%forward, self%backward)
+    if (self%owns_plans()) call destroy(self%single, self%forward, self%backward)
     self%forward = c_null_ptr
     self%backward = c_null_ptr
     self%owner = c_null_ptr
@@ -232,11 +247,16 @@ contains
   end subroutine free
 
   !> Destroy plans that exist, under the lock of the planner: FFTW's own would stay locked in a child forked meanwhile.
-  subroutine destroy(forward, backward)
+  subroutine destroy(single, forward, backward)
+    logical, intent(in) :: single
     type(c_ptr), intent(in) :: forward, backward
 
     call lock(LOCK_PLANNER)
-    if (c_associated(forward)) call fftw_destroy_plan(forward)
+    if (single .and. c_associated(forward)) then
+      call fftwf_destroy_plan(forward)
+    else if (c_associated(forward)) then
+      call fftw_destroy_plan(forward)
+    end if
     if (c_associated(backward)) call fftw_destroy_plan(backward)
     call unlock(LOCK_PLANNER)
   end subroutine destroy
@@ -274,6 +294,7 @@ contains
     self%measured = source%measured
     self%separate = source%separate
     self%lines = source%lines
+    self%single = source%single
     if (.not. source%owns_plans()) return
     self%length = source%length
     self%forward = source%forward
@@ -292,7 +313,7 @@ contains
     type(fuge_info) :: info
 
     if (source%length > 0) call new_plan%set(source%length, info, source%threads, source%measured, source%separate, &
-                                             source%lines)
+                                             source%lines, source%single)
     call self%move_from(new_plan)
   end subroutine copy
 
@@ -329,7 +350,11 @@ contains
     class(fft_plan), intent(in) :: self
     type(c_ptr), intent(in) :: from, to
 
-    call fftw_execute_c2c(self%forward, from, to)
+    if (self%single) then
+      call fftwf_execute_c2c(self%forward, from, to)
+    else
+      call fftw_execute_c2c(self%forward, from, to)
+    end if
   end subroutine transform_to
 
   !> Allocate a buffer for one transform, to be released with `release_buffer` if `status` is 0.
@@ -356,7 +381,7 @@ contains
 
   !> Allocate `columns` lines of `rows` real numbers, aligned for FFTW if `rows` is even; to be released with
   !> `release_buffer` if `status` is 0, not FUGE_ERR_MEMORY.
-  subroutine allocate_values(rows, columns, buffer, values, status)
+  subroutine allocate_double(rows, columns, buffer, values, status)
     integer, intent(in) :: rows, columns
     type(c_ptr), intent(out) :: buffer
     real(c_double), pointer, contiguous, intent(out) :: values(:, :)
@@ -366,7 +391,20 @@ contains
     buffer = fftw_malloc(8_c_size_t*int(rows, c_size_t)*int(columns, c_size_t))
     status = merge(FUGE_DONE, FUGE_ERR_MEMORY, c_associated(buffer))
     if (status == FUGE_DONE) call c_f_pointer(buffer, values, [rows, columns])
-  end subroutine allocate_values
+  end subroutine allocate_double
+
+  !> The same in single precision, aligned if `rows` is a multiple of four.
+  subroutine allocate_single(rows, columns, buffer, values, status)
+    integer, intent(in) :: rows, columns
+    type(c_ptr), intent(out) :: buffer
+    real(c_float), pointer, contiguous, intent(out) :: values(:, :)
+    integer, intent(out) :: status
+
+    nullify (values)
+    buffer = fftw_malloc(4_c_size_t*int(rows, c_size_t)*int(columns, c_size_t))
+    status = merge(FUGE_DONE, FUGE_ERR_MEMORY, c_associated(buffer))
+    if (status == FUGE_DONE) call c_f_pointer(buffer, values, [rows, columns])
+  end subroutine allocate_single
 
   subroutine release_buffer(buffer)
     type(c_ptr), intent(in) :: buffer

@@ -1,4 +1,4 @@
-!> FFTW's procedures for double precision, as `fuge_fft` calls them, but for those of `fuge_fftw_planner`.
+!> FFTW's procedures for double and single precision, as `fuge_fft` calls them, but for those of `fuge_fftw_planner`.
 !>
 !> src/variants/without_fftw/ has another module of this name, which takes its place where the library is built without
 !> FFTW.
@@ -9,7 +9,7 @@ module fuge_fftw
 
   public :: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, fftw_init_threads, &
     fftw_malloc, fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, fftw_plan_r2c, &
-    fftw_plan_with_nthreads
+    fftw_plan_with_nthreads, fftwf_destroy_plan, fftwf_execute_c2c, fftwf_plan_c2c
 
   !> This library can transform.
   logical, parameter, public :: HAS_FFTW = .true.
@@ -98,6 +98,23 @@ module fuge_fftw
       import :: c_ptr
       type(c_ptr), intent(in), value :: plan
     end subroutine fftw_destroy_plan
+
+    function fftwf_plan_c2c(n, in, out, sign, flags) bind(c, name='fftwf_plan_dft_1d') result(plan)
+      import :: c_int, c_ptr
+      integer(c_int), intent(in), value :: n, sign, flags
+      type(c_ptr), intent(in), value :: in, out
+      type(c_ptr) :: plan
+    end function fftwf_plan_c2c
+
+    subroutine fftwf_execute_c2c(plan, in, out) bind(c, name='fftwf_execute_dft')
+      import :: c_ptr
+      type(c_ptr), intent(in), value :: plan, in, out
+    end subroutine fftwf_execute_c2c
+
+    subroutine fftwf_destroy_plan(plan) bind(c, name='fftwf_destroy_plan')
+      import :: c_ptr
+      type(c_ptr), intent(in), value :: plan
+    end subroutine fftwf_destroy_plan
   end interface
 
 end module fuge_fftw

@@ -7,11 +7,15 @@ module fuge_fftw_planner
   implicit none
   private
 
-  public :: fftw_make_planner_thread_safe, fftw_planner_nthreads, fftw_threads_set_callback
+  public :: fftw_make_planner_thread_safe, fftw_planner_nthreads, fftw_threads_set_callback, &
+    fftwf_make_planner_thread_safe
 
   interface
     subroutine fftw_make_planner_thread_safe() bind(c, name='fftw_make_planner_thread_safe')
     end subroutine fftw_make_planner_thread_safe
+
+    subroutine fftwf_make_planner_thread_safe() bind(c, name='fftwf_make_planner_thread_safe')
+    end subroutine fftwf_make_planner_thread_safe
 
     function fftw_planner_nthreads() bind(c, name='fftw_planner_nthreads') result(threads)
       import :: c_int

@@ -10,7 +10,7 @@ module fuge_fftw
 
   public :: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, fftw_init_threads, &
     fftw_malloc, fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, fftw_plan_r2c, &
-    fftw_plan_with_nthreads
+    fftw_plan_with_nthreads, fftwf_destroy_plan, fftwf_execute_c2c, fftwf_plan_c2c
 
   !> This library cannot transform.
   logical, parameter, public :: HAS_FFTW = .false.
@@ -99,5 +99,21 @@ contains
   pure subroutine fftw_destroy_plan(plan)
     type(c_ptr), intent(in), value :: plan
   end subroutine fftw_destroy_plan
+
+  pure function fftwf_plan_c2c(n, in, out, sign, flags) result(plan)
+    integer(c_int), intent(in), value :: n, sign, flags
+    type(c_ptr), intent(in), value :: in, out
+    type(c_ptr) :: plan
+
+    plan = c_null_ptr
+  end function fftwf_plan_c2c
+
+  pure subroutine fftwf_execute_c2c(plan, in, out)
+    type(c_ptr), intent(in), value :: plan, in, out
+  end subroutine fftwf_execute_c2c
+
+  pure subroutine fftwf_destroy_plan(plan)
+    type(c_ptr), intent(in), value :: plan
+  end subroutine fftwf_destroy_plan
 
 end module fuge_fftw

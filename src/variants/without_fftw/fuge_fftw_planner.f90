@@ -6,12 +6,16 @@ module fuge_fftw_planner
   implicit none
   private
 
-  public :: fftw_make_planner_thread_safe, fftw_planner_nthreads, fftw_threads_set_callback
+  public :: fftw_make_planner_thread_safe, fftw_planner_nthreads, fftw_threads_set_callback, &
+    fftwf_make_planner_thread_safe
 
 contains
 
   pure subroutine fftw_make_planner_thread_safe()
   end subroutine fftw_make_planner_thread_safe
+
+  pure subroutine fftwf_make_planner_thread_safe()
+  end subroutine fftwf_make_planner_thread_safe
 
   !> One, because the number that the host program may have set is not known.
   pure function fftw_planner_nthreads() result(threads)
