@@ -2,7 +2,7 @@
 !> engine and the certificate form theirs here, so that a failure has one message everywhere.
 module fuge_operator_products
   use fuge_input_checks, only: check_finite, is_finite_everywhere
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: dp, sp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
@@ -11,7 +11,7 @@ module fuge_operator_products
   implicit none
   private
 
-  public :: multiply, multiply_with_magnitude, precondition
+  public :: multiply, multiply_single, multiply_with_magnitude, precondition, precondition_single
 
 contains
 
@@ -34,6 +34,19 @@ contains
     space = operator%ranks()
     call space%agree(info)
   end subroutine multiply
+
+  !> As `multiply`, in single precision, but a result that is not finite is the caller's to find.
+  subroutine multiply_single(operator, force, displacement, info)
+    class(fuge_operator), intent(in) :: operator
+    real(sp), intent(in) :: force(:)
+    real(sp), intent(out), contiguous :: displacement(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: status
+
+    call operator%apply_single(force, displacement, status)
+    info%products = info%products + 1
+    if (status /= FUGE_DONE) call report_status(status, 'product', info%products, info)
+  end subroutine multiply_single
 
   !> As `multiply`, with the size of the terms of each displacement, `magnitude` (n), length.
   subroutine multiply_with_magnitude(operator, force, displacement, magnitude, info)
@@ -88,6 +101,19 @@ contains
     space = operator%ranks()
     call space%agree(info)
   end subroutine precondition
+
+  !> As `precondition`, in single precision, but a result that is not finite is the caller's to find.
+  subroutine precondition_single(operator, displacement, force, info)
+    class(fuge_operator), intent(in) :: operator
+    real(sp), intent(in) :: displacement(:)
+    real(sp), intent(out), contiguous :: force(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: status
+
+    call operator%precondition_single(displacement, force, status)
+    info%preconditionings = info%preconditionings + 1
+    if (status /= FUGE_DONE) call report_status(status, 'preconditioner', info%preconditionings, info)
+  end subroutine precondition_single
 
   !> An error of the library keeps its meaning; any other status is the operator's own.
   pure subroutine report_status(status, what, number, info)

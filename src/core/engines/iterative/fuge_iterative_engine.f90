@@ -9,7 +9,7 @@ module fuge_iterative_engine
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_contact_iterate, only: contact_iterate, deformed_gap, evaluate_iterate, start_iterate
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_set_search, only: find_contact_set, find_states, search_settings
+  use fuge_contact_set_search, only: find_contact_set, find_states
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_contact_window, only: solve_in_window, survey_level
   use fuge_engine_messages, only: report_closed_gap, SINGULAR_AND_UNRESISTED, SINGULAR_ON_CONTACT
@@ -28,6 +28,7 @@ module fuge_iterative_engine
   use fuge_repeated_points, only: find_repeated_points
   use fuge_scene_scaling, only: scene_scaling
   use fuge_probed_compliance, only: probe_compliance
+  use fuge_search_settings, only: search_settings
   use fuge_shared_rows, only: rows_of
   use fuge_shared_transfer, only: prolong_to
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &

@@ -20,12 +20,13 @@ module fuge_contact_set_search
   use fuge_limited_points, only: exchange_limited_points, greatest_excess, release_furthest, return_deepest, &
     set_balanced_forces, step_to_limit
   use fuge_monitor_type, only: fuge_monitor
-  use fuge_number_text, only: index_text, text
+  use fuge_number_text, only: index_text
   use fuge_operator_type, only: fuge_operator
-  use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_projected_gradients, only: run_projected_gradients
+  use fuge_search_settings, only: note_least_compliance, search_settings, MAX_STALLS, SAFETY, WRONG_ON_COARSE
+  use fuge_single_search, only: find_in_single, suits_single
   use fuge_stall_counter, only: stall_counter
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NOT_DEFINITE
   use fuge_wrong_points, only: choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, &
     penetrated_stop
   implicit none
@@ -33,33 +34,10 @@ module fuge_contact_set_search
 
   public :: find_contact_set, find_states
 
-  !> Relative residual required on a coarser grid, which only provides a starting point.
-  real(dp), parameter :: COARSE_TOLERANCE = 1.0e-4_dp
-  !> The search aims below the tolerance by this factor, because the certificate adds the errors
-  !> at two points.
-  real(dp), parameter :: SAFETY = 0.4_dp
-  !> On a coarser grid a set is good enough if at most this fraction of its points is wrong.
-  real(dp), parameter :: WRONG_ON_COARSE = 0.01_dp
-  !> Block exchanges in a row without a new minimum of wrong points, before single exchanges begin; edges are
-  !> extrapolated in the first half of them only.
-  integer, parameter :: MAX_STALLS = 10
   !> Limits whose sum is beyond the load by this fraction carry just the load.
   real(dp), parameter :: NEARLY = 1.0e-8_dp
   !> Tensions up to this many units in the last place of the largest force are rounding in any case.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
-
-  !> The requirements on the search on one grid.
-  type, public :: search_settings
-    !> Relative residual to reach.
-    real(dp) :: tolerance = COARSE_TOLERANCE
-    !> Contact sets allowed, on all grids together.
-    integer :: limit = 0
-    !> Accept the first set with few wrong points, accurate or not: on a coarser grid its forces
-    !> only start the next one.
-    logical :: coarse_grid = .true.
-    !> The iterate has its contact set, feasible forces and their displacements already.
-    logical :: prepared = .false.
-  end type search_settings
 
 contains
 
@@ -79,8 +57,14 @@ contains
     real(dp) :: previous_residual
     type(stall_counter) :: stalls
     integer :: cells(2), products, wrong
-    logical :: to_tolerance, confirmed, descended, descends, fresh, in_row, undetermined
+    logical :: to_tolerance, confirmed, descended, descends, found, fresh, in_row, prepared, undetermined
 
+    prepared = settings%prepared
+    if (suits_single(operator, scene)) then
+      call find_in_single(operator, settings, scene, monitor, iterate, found, info)
+      if (found .or. info%failed()) return
+      prepared = .false.
+    end if
     cells = operator%grid()
     in_row = all(cells > 0) .and. any(cells == 1)
     descended = .false.
@@ -90,7 +74,7 @@ contains
     if (carry_just_the_load(scene)) then
       call start_at_limits(operator, scene, iterate, info)
       if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
-    else if (.not. settings%prepared) then
+    else if (.not. prepared) then
       call choose_contact(scene, iterate)
       call make_feasible(operator, scene, iterate, info)
     end if
@@ -257,11 +241,8 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
 
-    if (info%iterations >= settings%limit) then
-      call report(info, FUGE_ERR_ITERATION_LIMIT, text(settings%limit)//' contact sets were not enough: raise ' &
-                  //'max_iterations (0 allows '//text(ITERATIONS_PER_ROW)//' for each point)')
-      return
-    end if
+    call settings%check_limit(info)
+    if (info%failed()) return
     call preconditioner%set(operator, iterate%contact, .not. iterate%prescribed, maxval(abs(iterate%displacement)), &
                             info)
     if (allocated(scene%modes) .and. .not. info%failed()) then
@@ -289,18 +270,6 @@ contains
                 //'no energy, the largest at point '//index_text(point)//', cannot move the points to their stops; ' &
                 //'free the rigid motion that can, or change the gaps')
   end subroutine report_unbounded
-
-  !> Keep the least compliance that conjugate gradients have found on this set.
-  subroutine note_least_compliance(iterate)
-    type(contact_iterate), intent(inout) :: iterate
-    real(dp) :: value
-
-    value = iterate%lanczos%smallest()
-    if (.not. (value > 0.0_dp .and. iterate%amplification > 0.0_dp)) return
-    value = value/iterate%amplification
-    if (iterate%least_compliance > 0.0_dp) value = min(value, iterate%least_compliance)
-    iterate%least_compliance = value
-  end subroutine note_least_compliance
 
   !> Confirm a contact set without wrong points by a fresh product, because displacements and
   !> residuals updated by recurrence drift.

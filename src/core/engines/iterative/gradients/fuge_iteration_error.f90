@@ -22,8 +22,7 @@ contains
 
   !> The largest error of the forces over the largest force; no unit, at most 1.
   !>
-  !> `iterate` as evaluated last, so that iterate%work holds the magnitudes of the displacements, which rounding goes
-  !> with. The preconditioned residual is estimated from those before;
+  !> `iterate` as evaluated last. The preconditioned residual is estimated from those before;
   !> `pair_compliance` as least_pair_compliance of fuge_operator, because conjugate gradients do not see forces that
   !> hardly displace anything; `length` and `force` as from `find_rounding`. Costs two passes over the contact, and
   !> no product.
@@ -46,7 +45,7 @@ contains
       return
     end if
     open = max(iterate%residual_norm, iterate%penetration) + length &
-           + epsilon(error)*max_abs_over(iterate%segments, iterate%work)
+           + epsilon(error)*iterate%largest_magnitude
     if (open < compliance*largest) then
       error = min(max(open/compliance/largest, epsilon(error)) + force/largest, 1.0_dp)
     else

@@ -7,13 +7,14 @@
 module fuge_contact_window
   use fuge_contact_iterate, only: contact_iterate, start_iterate
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_set_search, only: find_contact_set, search_settings
+  use fuge_contact_set_search, only: find_contact_set
   use fuge_grid_transfer, only: coarser_cells
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_nested_grids, only: coarsest_level, nested_iteration, shared_work
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
+  use fuge_search_settings, only: search_settings
   use fuge_shared_rows, only: rows_of, shared_rows
   use fuge_shared_transfer, only: prolong_to
   use fuge_status, only: fuge_info, require_memory

@@ -5,7 +5,7 @@
 module fuge_nested_grids
   use fuge_contact_iterate, only: contact_iterate, start_iterate
   use fuge_contact_scene, only: coarser_scene, contact_scene
-  use fuge_contact_set_search, only: find_contact_set, search_settings
+  use fuge_contact_set_search, only: find_contact_set
   use fuge_extended_forces, only: extend_forces
   use fuge_feasible_forces, only: clip_forces
   use fuge_grid_transfer, only: coarser_cells
@@ -14,6 +14,7 @@ module fuge_nested_grids
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, iteration_limit
+  use fuge_search_settings, only: search_settings
   use fuge_shared_rows, only: rows_of, shared_rows
   use fuge_shared_transfer, only: prolong_to
   use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_NOT_DEFINITE

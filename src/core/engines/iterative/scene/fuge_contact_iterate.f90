@@ -14,7 +14,8 @@ module fuge_contact_iterate
   private
 
   public :: compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, find_penetration, &
-    is_accurate, largest_rigid_magnitude, overlap_at, project_residual, remove_rigid_part, rounding_force, start_iterate
+    is_accurate, largest_rigid_magnitude, overlap_at, project_residual, relative_error, remove_rigid_part, &
+    rounding_force, start_iterate
 
   !> Gaps less rigid displacements may be rounded by this many units in the last place of their terms.
   real(dp), parameter :: ROUNDINGS = 2.0_dp
@@ -51,6 +52,8 @@ module fuge_contact_iterate
     !> Residuals are compared with this length: the least magnitude at a contact point, as in the
     !> certificate (|gap less rigid motion| plus the magnitude of the displacement).
     real(dp) :: least_magnitude = 0.0_dp
+    !> The largest magnitude of a displacement at a contact point, as the certificate forms it.
+    real(dp) :: largest_magnitude = 0.0_dp
     !> Lengths up to this are rounding of the gaps and of rigid displacements, beside which there may be no others; 0
     !> where there are no modes.
     real(dp) :: rounding = 0.0_dp
@@ -315,6 +318,7 @@ contains
       call operator%magnitude(iterate%force, iterate%displacement, iterate%work)
       iterate%least_magnitude = least_sum(iterate%segments, -iterate%motion, scene%gap, iterate%work)
     end if
+    iterate%largest_magnitude = max_abs_over(iterate%segments, iterate%work)
   end subroutine find_least_magnitude
 
   !> Room for a length at each point, (n). Error: FUGE_ERR_MEMORY.

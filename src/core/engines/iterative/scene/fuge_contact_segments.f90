@@ -1,9 +1,11 @@
-!> Contact segments: maximal runs of consecutive points in contact, and sums over them.
+!> Contact segments: runs of consecutive points in contact, as long as they can be within a chunk, and sums over them.
 !>
 !> Loops over the segments visit no open point and have no branch inside. Where ranks share the points, each has the
 !> segments of its own, and sums and maxima are those over the segments of all ranks.
 module fuge_contact_segments
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use fuge_kinds, only: dp
+  use fuge_point_chunks, only: chunk_count, chunked_pass
   use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, require_memory
   implicit none
@@ -16,8 +18,10 @@ module fuge_contact_segments
 
   !> The segments of one contact set.
   type, public :: contact_segments
-    !> First and last point of each segment, ascending.
+    !> First and last point of each segment, ascending. A chunk ends the segments in it, the next one goes on.
     integer, allocatable :: first(:), last(:)
+    !> Number of segments before each chunk, and of all.
+    integer, allocatable :: before(:)
     !> Number of points in all segments, of all ranks.
     integer :: points = 0
     !> The ranks that share the points.
@@ -26,41 +30,94 @@ module fuge_contact_segments
     procedure :: find
   end type contact_segments
 
+  !> Finds the segments, chunk by chunk.
+  type, extends(chunked_pass) :: segment_pass
+    logical, pointer, contiguous :: contact(:) => null()
+    integer, pointer, contiguous :: first(:) => null(), last(:) => null(), before(:) => null()
+  contains
+    procedure :: do_chunk => find_in_chunk
+  end type segment_pass
+
 contains
 
   !> Find the segments of the contact set `contact` (n). Error: FUGE_ERR_MEMORY.
   subroutine find(self, contact, info)
-    class(contact_segments), intent(inout) :: self
-    logical, intent(in) :: contact(:)
+    class(contact_segments), intent(inout), target :: self
+    logical, intent(in), contiguous, target :: contact(:)
     type(fuge_info), intent(inout) :: info
-    integer :: k, n, number, stat
-    logical :: inside
+    type(segment_pass), target :: pass
+    integer :: chunks, k, stat
 
-    n = size(contact)
-    number = count(contact(2:n) .and. .not. contact(1:n - 1))
-    if (n > 0) then
-      if (contact(1)) number = number + 1
-    end if
+    chunks = chunk_count(size(contact))
     if (allocated(self%first)) deallocate (self%first, self%last)
-    allocate (self%first(number), self%last(number), stat=stat)
+    if (allocated(self%before)) deallocate (self%before)
+    allocate (self%before(chunks + 1), stat=stat)
+    if (stat == 0) then
+      call c_f_pointer(c_loc(contact), pass%contact, shape(contact))
+      call pass%run(size(contact), 2)
+      self%before(1) = 0
+      do k = 1, chunks
+        self%before(k + 1) = self%before(k) + nint(pass%found(1, k))
+      end do
+      allocate (self%first(self%before(chunks + 1)), self%last(self%before(chunks + 1)), stat=stat)
+    end if
     call require_memory(stat, 'the segments of the contact set', info)
     call self%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
+    self%points = self%space%total_count(nint(pass%total(2)))
+    pass%first => self%first
+    pass%last => self%last
+    pass%before => self%before
+    call pass%run(size(contact), 2)
+  end subroutine find
+
+  !> Count the segments and the points in contact of a chunk, or note the segments once there is room for them.
+  subroutine find_in_chunk(self, k, first, last)
+    class(segment_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+    integer :: i, number, points
+
+    if (associated(self%before)) then
+      call note_segments(first, self%contact(first:last), self%first(self%before(k) + 1:self%before(k + 1)), &
+                         self%last(self%before(k) + 1:self%before(k + 1)))
+      return
+    end if
+    number = 0
+    points = 0
+    do i = first, last
+      if (.not. self%contact(i)) cycle
+      points = points + 1
+      if (i == first) then
+        number = number + 1
+      else if (.not. self%contact(i - 1)) then
+        number = number + 1
+      end if
+    end do
+    self%found(:, k) = real([number, points], dp)
+  end subroutine find_in_chunk
+
+  !> The first and last points of the segments of `contact`, whose first point has the number `begin`.
+  pure subroutine note_segments(begin, contact, first, last)
+    integer, intent(in) :: begin
+    logical, intent(in), contiguous :: contact(:)
+    integer, intent(inout), contiguous :: first(:), last(:)
+    integer :: k, number
+    logical :: inside
+
     number = 0
     inside = .false.
-    do k = 1, n
+    do k = 1, size(contact)
       if (contact(k) .eqv. inside) cycle
       inside = contact(k)
       if (inside) then
         number = number + 1
-        self%first(number) = k
+        first(number) = begin + k - 1
       else
-        self%last(number) = k - 1
+        last(number) = begin + k - 2
       end if
     end do
-    if (inside) self%last(number) = n
-    self%points = self%space%total_count(sum(self%last - self%first + 1))
-  end subroutine find
+    if (inside) last(number) = begin + size(contact) - 1
+  end subroutine note_segments
 
   !> Sum of `x` (n) over the segments.
   function sum_over(segments, x) result(total)

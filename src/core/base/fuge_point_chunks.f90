@@ -1,0 +1,94 @@
+!> Passes over points in chunks, which threads share: the same chunks, and sums in the same order, for any number of
+!> threads.
+module fuge_point_chunks
+  use fuge_kinds, only: dp
+  use fuge_threads, only: run_in_parts, threads_here, work_in_parts
+  implicit none
+  private
+
+  public :: chunk_count
+
+  !> Points of a chunk: 64 kB of numbers, which waking a thread is worth.
+  integer, parameter, public :: CHUNK = 8192
+
+  !> A pass. Extend it by the arrays that it reads and changes.
+  type, abstract, extends(work_in_parts), public :: chunked_pass
+    !> Number of points.
+    integer :: points = 0
+    !> What each chunk has found, (:, chunks); allocated before the pass, zero.
+    real(dp), allocatable :: found(:, :)
+  contains
+    procedure(do_one_chunk), deferred :: do_chunk
+    procedure :: do_part
+    procedure :: run
+    procedure :: total
+    procedure :: largest
+  end type chunked_pass
+
+  abstract interface
+    !> Do chunk number `k`, the points `first` .. `last`.
+    subroutine do_one_chunk(self, k, first, last)
+      import :: chunked_pass
+      class(chunked_pass), intent(inout) :: self
+      integer, intent(in) :: k, first, last
+    end subroutine do_one_chunk
+  end interface
+
+contains
+
+  !> How many chunks `n` points have: one at least.
+  pure function chunk_count(n)
+    integer, intent(in) :: n
+    integer :: chunk_count
+
+    chunk_count = max((n - 1)/CHUNK + 1, 1)
+  end function chunk_count
+
+  !> Do all chunks of `points` points. Each finds `results` numbers.
+  subroutine run(self, points, results)
+    class(chunked_pass), intent(inout) :: self
+    integer, intent(in) :: points, results
+    integer :: chunks
+
+    self%points = points
+    chunks = chunk_count(points)
+    if (allocated(self%found)) deallocate (self%found)
+    allocate (self%found(results, chunks))
+    self%found = 0.0_dp
+    call run_in_parts(min(chunks, threads_here()), self)
+  end subroutine run
+
+  !> Every so manieth chunk, so that all threads have points everywhere.
+  subroutine do_part(self, part, parts)
+    class(chunked_pass), intent(inout) :: self
+    integer, intent(in) :: part, parts
+    integer :: k
+
+    do k = part + 1, size(self%found, 2), parts
+      call self%do_chunk(k, CHUNK*(k - 1) + 1, min(CHUNK*k, self%points))
+    end do
+  end subroutine do_part
+
+  !> The sum of what the chunks have found under `number`.
+  pure function total(self, number)
+    class(chunked_pass), intent(in) :: self
+    integer, intent(in) :: number
+    real(dp) :: total
+    integer :: k
+
+    total = 0.0_dp
+    do k = 1, size(self%found, 2)
+      total = total + self%found(number, k)
+    end do
+  end function total
+
+  !> The largest of it.
+  pure function largest(self, number)
+    class(chunked_pass), intent(in) :: self
+    integer, intent(in) :: number
+    real(dp) :: largest
+
+    largest = maxval(self%found(number, :))
+  end function largest
+
+end module fuge_point_chunks

@@ -1,0 +1,124 @@
+!> Projected, preconditioned conjugate gradients on a contact set in single precision.
+!>
+!> As fuge_projected_gradients for one free translation. The forces and displacements that the steps add up to are in
+!> double precision; whenever the residuals get so small that the errors of the products count, one product in double
+!> precision gives the displacements anew and the residuals with them, and the directions go on (H. A. van der Vorst,
+!> Q. Ye, Residual replacement strategies for Krylov subspace iterative methods, SIAM Journal on Scientific Computing
+!> 22, 2000).
+module fuge_single_gradients
+  use fuge_contact_iterate, only: contact_iterate, is_accurate
+  use fuge_contact_scene, only: contact_scene
+  use fuge_kinds, only: dp
+  use fuge_operator_products, only: multiply_single
+  use fuge_operator_type, only: fuge_operator
+  use fuge_single_passes, only: point_pass, step_all, sum_curvature, turn_direction
+  use fuge_single_preconditioner, only: single_preconditioner
+  use fuge_single_state, only: refresh, single_state, SINGLE_ERROR
+  use fuge_status, only: fuge_info
+  implicit none
+  private
+
+  public :: run_single_gradients
+
+  !> As in fuge_projected_gradients.
+  real(dp), parameter :: DECISIVE = 0.2_dp, NEARLY = 100.0_dp
+  !> Residuals below this multiple of the errors of the displacements are replaced.
+  real(dp), parameter :: REPLACED = 100.0_dp
+  !> Steps at most.
+  integer, parameter :: LIMIT = 1000
+
+contains
+
+  !> Iterate towards forces for which the gaps of the contact set are equal, as run_projected_gradients does; the
+  !> iterate is evaluated. `lost`: rounding has taken over, and another method has to go on. Errors: those of the
+  !> operator, FUGE_ERR_MEMORY.
+  subroutine run_single_gradients(operator, preconditioner, scene, tolerance, to_tolerance, state, iterate, lost, info)
+    class(fuge_operator), intent(in) :: operator
+    type(single_preconditioner), intent(in) :: preconditioner
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: tolerance
+    logical, intent(in) :: to_tolerance
+    type(single_state), intent(inout) :: state
+    type(contact_iterate), intent(inout) :: iterate
+    logical, intent(out) :: lost
+    type(fuge_info), intent(inout) :: info
+    type(point_pass) :: pass
+    real(dp) :: energy, factor, largest, previous, step_length
+    integer :: iteration
+
+    lost = .false.
+    iterate%converged = .false.
+    call iterate%lanczos%restart()
+    previous = 1.0_dp
+    do iteration = 0, LIMIT
+      iterate%converged = is_accurate(iterate, tolerance)
+      if (iterate%converged) return
+      if (iteration > 0 .and. .not. to_tolerance) then
+        if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
+      end if
+      if (iterate%residual_norm < REPLACED*state%drift) then
+        call refresh(operator, scene, .false., state, iterate, info)
+        if (info%failed()) return
+        cycle
+      end if
+      call preconditioner%apply(operator, scene, state, iterate, factor, energy, info)
+      lost = .not. energy > 0.0_dp
+      if (lost .or. info%failed()) return
+      call state%point_to(scene, iterate, pass)
+      pass%factor = factor
+      pass%ratio = merge(0.0_dp, energy/previous, iteration == 0)
+      call pass%go(turn_direction, 1)
+      largest = pass%largest(1)
+      if (iteration == 0 .or. is_accurate(iterate, NEARLY*tolerance)) then
+        iterate%amplification = largest/iterate%residual_norm
+      end if
+      if (iteration > 0 .and. .not. to_tolerance) then
+        if (largest <= DECISIVE*state%tension) return
+      end if
+      call multiply_single(operator, state%direction, state%work, info)
+      if (info%failed()) return
+      call step(scene, energy, state, iterate, step_length)
+      lost = .not. step_length > 0.0_dp
+      if (lost) return
+      call iterate%lanczos%add(step_length, energy/previous)
+      previous = energy
+    end do
+    lost = .true.
+  end subroutine run_single_gradients
+
+  !> Go to the minimum of the energy along the search direction, whose displacements are state%work; `step_length` is 0
+  !> where the curvature is not positive, or nothing but rounding.
+  subroutine step(scene, energy, state, iterate, step_length)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: energy
+    type(single_state), intent(inout) :: state
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp), intent(out) :: step_length
+    type(point_pass) :: pass
+    real(dp) :: curvature, mean, points
+
+    step_length = 0.0_dp
+    call state%point_to(scene, iterate, pass)
+    call pass%go(sum_curvature, 3)
+    curvature = pass%total(1)
+    if (.not. (curvature > 0.0_dp .and. curvature <= huge(curvature))) return
+    if (iterate%lanczos%is_suspect(curvature/energy)) return
+    step_length = energy/curvature
+    points = real(iterate%segments%points, dp)
+    mean = pass%total(2)/points
+    state%drift = state%drift + SINGLE_ERROR*step_length*pass%largest(3)
+    iterate%motion = iterate%motion - step_length*mean
+    pass%factor = step_length
+    pass%shift = step_length*mean - state%offset
+    pass%motion = iterate%motion
+    state%is_exact = .false.
+    call pass%go(step_all, 4)
+    ! A mean left by rounding would grow.
+    state%offset = pass%total(1)/points
+    iterate%motion = iterate%motion + state%offset
+    iterate%residual_norm = pass%largest(2)
+    iterate%penetration = pass%largest(3)
+    state%tension = pass%largest(4)
+  end subroutine step
+
+end module fuge_single_gradients
