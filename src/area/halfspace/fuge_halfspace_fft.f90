@@ -11,8 +11,7 @@ module fuge_halfspace_fft
   use fuge_memory, only: check_memory
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
-    FUGE_ERR_OPTION
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private
 
