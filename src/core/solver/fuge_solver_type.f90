@@ -56,12 +56,13 @@ contains
   !> Solve the contact problem (paper, equations 9 to 11) and certify the solution.
   !>
   !> `operator` displacements per force, `problem` gaps and load, `options` as in `fuge_options` (defaults when
-  !> absent). `monitor` hears of each iteration and may cancel; without a load there are none. On return info%status
-  !> is FUGE_DONE, with a message only if the contact reaches the rim of a free grid, or the first of these warnings
-  !> that is true: FUGE_WARN_RESIDUAL with the residual in the message; FUGE_WARN_NOT_UNIQUE where alpha is singular on
-  !> the points that touch, with or without force (the forces are then one of many possible), or the contact does not
-  !> resist a mode (its motion is then one of many possible), or both; FUGE_WARN_ILL_CONDITIONED if info%force_error,
-  !> the estimated error of the forces, is above 1e-3. Or it is an error that leaves `solution` untouched:
+  !> absent); options%threads share the work, and change no result. `monitor` hears of each iteration, in the thread of
+  !> the call, and may cancel; without a load there are none. On return info%status is FUGE_DONE, with a message only if
+  !> the contact reaches the rim of a free grid, or the first of these warnings that is true: FUGE_WARN_RESIDUAL with
+  !> the residual in the message; FUGE_WARN_NOT_UNIQUE where alpha is singular on the points that touch, with or without
+  !> force (the forces are then one of many possible), or the contact does not resist a mode (its motion is then one of
+  !> many possible), or both; FUGE_WARN_ILL_CONDITIONED if info%force_error, the estimated error of the forces, is above
+  !> 1e-3. Or it is an error that leaves `solution` untouched:
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,
   !> FUGE_ERR_CANCELLED. The next solve is possible after any of them.
