@@ -56,8 +56,9 @@
  * THREADS.  Calls in different threads at once are safe unless two of them have the same
  * solver or body, even if both only read results.  Solvers of several threads may share
  * an operator and its matrix, which they only read, as long as no thread changes or frees
- * it meanwhile.  A process may fork: the child may use all objects but the
- * solvers and bodies that other threads were using.
+ * it meanwhile.  The work of a solve is shared by as many threads as its options say: they
+ * start with the first work, end with the solve, and change no result.  A process may fork:
+ * the child may use all objects but the solvers and bodies that other threads were using.
  *
  * CALL ORDER.  Either fuge_solve_dense alone, or
  *     fuge_operator_dense, _halfplane or _callback -> fuge_solver_new

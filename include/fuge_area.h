@@ -58,8 +58,7 @@ enum {                          /* boundary, beside FUGE_FREE and FUGE_PERIODIC 
  * *op is set on success only.  It takes 10 n bytes for FUGE_FREE, 18 n while it is made, and
  * 4 n for FUGE_PERIODIC; its products 16 n and 8 n, which it keeps; and a third more with the
  * coarser grids of its solves.  In a free direction that is no power of 2 up to a quarter
- * more.  fuge_operator_set_threads works on it; the products are the same to the last
- * bit.  FUGE_ERR_SIZE also if nx*ny is too large, FUGE_ERR_MEMORY, before anything is
+ * more.  FUGE_ERR_SIZE also if nx*ny is too large, FUGE_ERR_MEMORY, before anything is
  * allocated, if the machine has too little; FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH (also for two
  * spacings with a ratio of more than 1e5), FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT,
  * FUGE_ERR_OPTION (boundary), FUGE_ERR_OVERFLOW; FUGE_ERR_UNSUPPORTED from a library without

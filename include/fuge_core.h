@@ -89,7 +89,10 @@ typedef struct fuge_options {
   int max_iterations;           /* limit of pivots or contact sets, on all grids;
                                    0: 50 for each row */
   int keep_history;             /* nonzero: keep all steps for fuge_get_history */
-  int reserved_int[4];
+  int threads;                  /* that share the work of a solve and of its derivatives, 1 by
+                                   default; 0: as many as the process may use cores.  No
+                                   result depends on it */
+  int reserved_int[3];
   double tolerance;             /* largest relative residual without a warning */
   double reserved[7];
 } fuge_options;
@@ -357,12 +360,6 @@ enum {                          /* boundary: what lies beyond the cells */
  * FUGE_ERR_UNSUPPORTED from a library without FFTW. */
 int fuge_operator_halfplane(int n, double spacing, double e_star, int element, int boundary,
                             fuge_operator **op, char *message, size_t len);
-
-/* Let threads >= 1 threads share each transform of a half-plane operator, or each product of
- * one of fuge_operator_halfspace, which has one when it is created.  Worth while from about
- * 10^5 cells on; not during a solve.  Results change by rounding only.  FUGE_ERR_OPTION,
- * FUGE_ERR_UNSUPPORTED for another operator, one of fuge_mpi.h too, FUGE_ERR_MEMORY. */
-int fuge_operator_set_threads(fuge_operator *op, int threads, char *message, size_t len);
 
 /* The product u = A f of any operator, without a contact problem: the displacements by given
  * forces.

@@ -16,7 +16,7 @@ from fuge.columns import CompressedColumns, compressed, compressed_dense, is_spa
 from fuge.contact import Info, info_of
 from fuge.errors import Status, error
 from fuge.pairs import Normals, PairMethod, Surface, pair_options, surface_arguments
-from fuge.solver import Method, chosen_options
+from fuge.solver import ALL_CORES, Method, chosen_options
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,6 +188,7 @@ class ElasticBodies(Owner):
         method: Method | None = None,
         max_iterations: int | None = None,
         tolerance: float | None = None,
+        threads: int = ALL_CORES,
     ) -> BodiesContact:
         """Solve: pairs, condensation, contact and displacements.
 
@@ -195,7 +196,7 @@ class ElasticBodies(Owner):
         ----------
         sparse : bool, optional
             True: factorise by CHOLMOD; False: as a band, for small models. By CHOLMOD if the library has it.
-        method, max_iterations, tolerance
+        method, max_iterations, tolerance, threads
             As in :class:`Solver`.
 
         Raises
@@ -209,7 +210,7 @@ class ElasticBodies(Owner):
         Warning
             Those of the same three.
         """
-        options = chosen_options(method, None, max_iterations, None, tolerance)
+        options = chosen_options(method, None, max_iterations, None, tolerance, threads)
         by_cholmod = has_sparse() if sparse is None else sparse
         if by_cholmod:
             require_sparse()

@@ -126,19 +126,10 @@ class GridOperator(Operator):
     cells : Cells
     e_star : float
         Combined modulus; force per length^2.
-    threads : int
-        Threads that share each product.
     """
 
     cells: Cells
     e_star: float
-    threads: int = 1
-
-    def set_threads(self, threads: int) -> None:
-        """Let `threads` threads share each product; not during a product or a solve."""
-        number = _arrays.integer("threads", threads)
-        self._set("fuge_operator_set_threads", number)
-        self.threads = number
 
     @property
     def element(self) -> str:
@@ -151,8 +142,7 @@ class GridOperator(Operator):
         return self.cells.boundary
 
     def _described(self) -> Mapping[str, Any]:
-        known = {name: getattr(self, name) for name in ("e_star", "element", "boundary")}
-        return {**self._size(), **known, **({"threads": self.threads} if self.threads != 1 else {})}
+        return {**self._size(), **{name: getattr(self, name) for name in ("e_star", "element", "boundary")}}
 
     def _size(self) -> Mapping[str, Any]:
         """Numbers of cells and their widths."""
@@ -174,12 +164,10 @@ class HalfplaneOperator(GridOperator):
         As in :func:`halfplane_matrix`; 'mean' and 'hat' are the same here.
     boundary : {'free', 'periodic'}
         Beyond the cells a free surface; or the cells repeat, and displacements count from the mean of the surface.
-    threads : int
-        Threads that share each transform; worth while from about 10^5 cells on.
 
     Attributes
     ----------
-    spacing, e_star, element, boundary, threads
+    spacing, e_star, element, boundary
         The parameters; also :attr:`cells`.
 
     Raises
@@ -195,8 +183,6 @@ class HalfplaneOperator(GridOperator):
         e_star: float,
         element: Element = "mean",
         boundary: Boundary = "free",
-        *,
-        threads: int = 1,
     ) -> None:
         self.n = _arrays.integer("n", n)
         modulus, width = _arrays.number("e_star", e_star), _arrays.number("spacing", spacing)
@@ -210,8 +196,6 @@ class HalfplaneOperator(GridOperator):
         )
         self.e_star = modulus
         self.cells = Cells((self.n,), (width,), boundary, element)
-        if threads != 1:
-            self.set_threads(threads)
 
     @property
     def spacing(self) -> float:
@@ -240,12 +224,10 @@ class HalfspaceOperator(GridOperator):
     boundary : {'free', 'periodic', 'periodic_x', 'periodic_y'}
         What lies beyond the cells: free surface, or the cells repeat along both axes or one of them. With
         'periodic' displacements count from the mean of the surface.
-    threads : int
-        Threads that share each product; worth while from about 10^5 cells on.
 
     Attributes
     ----------
-    nx, ny, spacing_x, spacing_y, e_star, element, boundary, threads
+    nx, ny, spacing_x, spacing_y, e_star, element, boundary
         The parameters; also :attr:`cells`.
 
     Raises
@@ -264,8 +246,6 @@ class HalfspaceOperator(GridOperator):
         e_star: float,
         element: AreaElement = "mean",
         boundary: AreaBoundary = "free",
-        *,
-        threads: int = 1,
     ) -> None:
         columns, rows = _arrays.integer("nx", nx), _arrays.integer("ny", ny)
         spacing = _arrays.number("spacing_x", spacing_x), _arrays.number("spacing_y", spacing_y)
@@ -283,8 +263,6 @@ class HalfspaceOperator(GridOperator):
         self.grid = (rows, columns)
         self.e_star = modulus
         self.cells = Cells(self.grid, spacing, boundary, element)
-        if threads != 1:
-            self.set_threads(threads)
 
     @property
     def nx(self) -> int:

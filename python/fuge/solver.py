@@ -27,6 +27,9 @@ PIVOT_RULES = Words("pivot_rule", PivotRule, paper="PAPER_RULE")
 
 Progress = Callable[[int, float, int], Any]
 
+# Threads of a solve: as many as the process may use cores.
+ALL_CORES = 0
+
 
 def chosen_options(
     method: Method | None,
@@ -34,8 +37,9 @@ def chosen_options(
     max_iterations: int | None = None,
     keep_history: bool | None = None,
     tolerance: float | None = None,
+    threads: int = ALL_CORES,
 ) -> Any:
-    """fuge_options: the library's defaults, but for what is not None."""
+    """fuge_options: the library's defaults, but for the threads and for what is not None."""
     options = struct("fuge_options")
     function("fuge_default_options")(ctypes.byref(options))
     if method is not None:
@@ -48,6 +52,7 @@ def chosen_options(
         options.keep_history = int(bool(keep_history))
     if tolerance is not None:
         options.tolerance = _arrays.number("tolerance", tolerance)
+    options.threads = _arrays.integer("threads", threads)
     return options
 
 
@@ -74,6 +79,9 @@ class Solver(Owner):
         Keep all steps of the tableau for :meth:`history`.
     tolerance : float, optional
         Largest residual without a warning.
+    threads : int
+        Threads that share the work of a solve and of its derivatives; 0, the default, for as many as the process may
+        use cores. No result depends on it. Use 1 where other processes or threads are at work.
     progress : callable, optional
         See :meth:`set_progress`.
 
@@ -94,11 +102,12 @@ class Solver(Owner):
         max_iterations: int | None = None,
         keep_history: bool | None = None,
         tolerance: float | None = None,
+        threads: int = ALL_CORES,
         progress: Progress | None = None,
     ) -> None:
         self.operator = operator if isinstance(operator, Operator) else DenseOperator(operator)
         self._shape: tuple[int, ...] = self.operator.grid or (self.n,)
-        options = chosen_options(method, pivot_rule, max_iterations, keep_history, tolerance)
+        options = chosen_options(method, pivot_rule, max_iterations, keep_history, tolerance, threads)
         read = self.operator._handle
         arguments = [read.pointer, ctypes.byref(options)]
         self._handle = new_handle("solver", "fuge_solver_new", "fuge_solver_free", *arguments, needs=[read])
@@ -494,6 +503,7 @@ def solve(
     pivot_rule: PivotRule | None = None,
     max_iterations: int | None = None,
     tolerance: float | None = None,
+    threads: int = ALL_CORES,
     progress: Progress | None = None,
 ) -> Contact:
     """Solve one contact problem; :class:`Solver` is for several ones, and for derivatives.
@@ -526,7 +536,7 @@ def solve(
         Limits of the forces; see :meth:`Solver.set_limits`.
     motion_stiffness : float, or array_like of shape (m,), optional
         Stiffnesses of springs on the motions, 0 for none; see :meth:`Solver.set_motion_stiffness`.
-    method, pivot_rule, max_iterations, tolerance, progress
+    method, pivot_rule, max_iterations, tolerance, threads, progress
         As in :class:`Solver`.
 
     Returns
@@ -555,6 +565,7 @@ def solve(
         pivot_rule=pivot_rule,
         max_iterations=max_iterations,
         tolerance=tolerance,
+        threads=threads,
         progress=progress,
     ) as solver:
         solver.set_gap(gap, gap_upper)

@@ -22,8 +22,8 @@ class Halfplane(unittest.TestCase):
             alpha = fuge.halfplane_matrix(self.x, self.width, self.e_star, element)
             self.assertTrue(alpha.flags.f_contiguous)
             wanted = fuge.solve(alpha, self.gap, 3.0)
-            operator = fuge.HalfplaneOperator(self.n, self.width, self.e_star, element, threads=2)
-            found = fuge.solve(operator, self.gap, 3.0, tolerance=1e-12)
+            operator = fuge.HalfplaneOperator(self.n, self.width, self.e_star, element)
+            found = fuge.solve(operator, self.gap, 3.0, tolerance=1e-12, threads=2)
             np.testing.assert_allclose(found.force, wanted.force, rtol=0, atol=1e-9)
             self.assertAlmostEqual(found.approach, wanted.approach, delta=1e-9)
 
@@ -115,7 +115,7 @@ class Halfspace(QuietRims):
         gap = 0.01 * (x - 0.2) ** 2 + 0.3 * y
         alpha = fuge.halfspace_matrix(x.ravel(), y.ravel(), spacing_x, spacing_y, 1.0, "mean")
         wanted = fuge.solve(alpha, gap.ravel(), 0.2)
-        operator = fuge.HalfspaceOperator(nx, ny, spacing_x, spacing_y, 1.0, "mean", threads=2)
+        operator = fuge.HalfspaceOperator(nx, ny, spacing_x, spacing_y, 1.0, "mean")
         found = fuge.solve(operator, gap, 0.2, excluded=np.zeros((ny, nx), dtype=bool), tolerance=1e-12)
         np.testing.assert_allclose(found.force, wanted.force.reshape(ny, nx), rtol=0, atol=1e-9)
         solver = fuge.Solver(operator)
@@ -276,6 +276,40 @@ class Callback(unittest.TestCase):
         self.same(fuge.CallbackOperator(self.n, lambda f: self.alpha @ f))
 
 
+class Threads(QuietRims):
+    """The same bits by any number of threads."""
+
+    def compare(self, operator, gap):
+        found = []
+        for threads in (1, 2, 3, 5, 0):
+            solver = fuge.Solver(operator, threads=threads)
+            solver.set_gap(gap)
+            solver.set_load(0.05)
+            contact = solver.solve()
+            change = solver.derivative(load_change=1.0)
+            found.append((contact.force, contact.gap, contact.motion, change.force, change.gap))
+        for others in found[1:]:
+            for one, other in zip(found[0], others):
+                np.testing.assert_array_equal(one, other)
+        np.testing.assert_array_equal(fuge.solve(operator, gap, 0.05).force, found[0][0])
+
+    def test_area(self):
+        n = 128
+        x = (np.arange(n) + 0.5) / n - 0.5
+        sphere = x[None, :] ** 2 + x[:, None] ** 2
+        self.compare(fuge.HalfspaceOperator(n, n, 1 / n, 1 / n, 1.0), sphere)
+        rough = 0.1 * np.ones((n, n))
+        for wave in range(1, 40, 2):
+            phase = 2 * np.pi * (wave * x[None, :] + 3 * wave % 29 * x[:, None]) + wave**2
+            rough += 0.02 / wave * np.cos(phase)
+        self.compare(fuge.HalfspaceOperator(n, n, 1 / n, 1 / n, 1.0, boundary="periodic"), rough)
+
+    def test_line(self):
+        n = 100000
+        x = np.arange(n) / n - 0.4
+        self.compare(fuge.HalfplaneOperator(n, 1 / n, 1.0), x**2 + 1e-4 * np.cos(700 * x))
+
+
 class Grids(QuietRims):
     """Attributes and representations of operators of grids and of their contacts."""
 
@@ -283,7 +317,7 @@ class Grids(QuietRims):
         operator = fuge.HalfplaneOperator(64, 0.5, 2.0)
         self.assertIsInstance(operator, fuge.GridOperator)
         self.assertEqual((operator.n, operator.spacing, operator.e_star), (64, 0.5, 2.0))
-        self.assertEqual((operator.element, operator.boundary, operator.threads), ("mean", "free", 1))
+        self.assertEqual((operator.element, operator.boundary), ("mean", "free"))
         self.assertEqual(operator.cells, fuge.Cells((64,), (0.5,), "free", "mean"))
         self.assertEqual(operator.cells.periodic, (False,))
         np.testing.assert_allclose(operator.cells.centres(0), 0.5 * (np.arange(64) - 31.5))
@@ -295,13 +329,12 @@ class Grids(QuietRims):
         np.testing.assert_allclose(contact.pressure * 0.5, contact.force, rtol=1e-15)
 
     def test_area(self):
-        operator = fuge.HalfspaceOperator(6, 4, 0.5, 0.25, 2.0, boundary="periodic_y", threads=2)
+        operator = fuge.HalfspaceOperator(6, 4, 0.5, 0.25, 2.0, boundary="periodic_y")
         self.assertEqual((operator.nx, operator.ny, operator.spacing_x, operator.spacing_y), (6, 4, 0.5, 0.25))
-        self.assertEqual(operator.threads, 2)
         self.assertEqual(operator.cells.periodic, (False, True))
         self.assertEqual(operator.cells.centres(1).shape, (4,))
         again = eval("fuge." + repr(operator))
-        self.assertEqual((again.cells, again.threads), (operator.cells, 2))
+        self.assertEqual(again.cells, operator.cells)
         contact = fuge.solve(operator, 0.0, 3.0)
         self.assertEqual(contact.pressure.shape, (4, 6))
         np.testing.assert_allclose(contact.pressure.sum() * 0.125, 3.0)

@@ -14,12 +14,13 @@ class Forks(unittest.TestCase):
     def test_fork_after_solves_in_two_threads(self):
         n = 16384
         gap = np.linspace(-1.0, 1.0, n) ** 2
-        operator = fuge.HalfplaneOperator(n, 1.0, 1.0, "mean", threads=2)
-        wanted = fuge.solve(operator, gap, 1e-2).force
+        operator = fuge.HalfplaneOperator(n, 1.0, 1.0, "mean")
+        wanted = fuge.solve(operator, gap, 1e-2, threads=2).force
 
         def work(results):
-            own = fuge.HalfplaneOperator(n, 1.0, 1.0, "mean", threads=2)
-            results.put([np.array_equal(fuge.solve(op, gap, 1e-2).force, wanted) for op in (operator, own)])
+            own = fuge.HalfplaneOperator(n, 1.0, 1.0, "mean")
+            forces = [fuge.solve(op, gap, 1e-2, threads=2).force for op in (operator, own)]
+            results.put([np.array_equal(force, wanted) for force in forces])
 
         with warnings.catch_warnings():
             # Python 3.12 warns of threads beside a fork.

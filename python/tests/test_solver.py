@@ -210,10 +210,17 @@ class Errors(unittest.TestCase):
             (lambda: fuge.solve(ALPHA, GAP, "2"), "load"),
             (lambda: fuge.solve(ALPHA, GAP, 2.0, excluded=[0.0, 1.0]), "excluded"),
             (lambda: fuge.solve(ALPHA, GAP, 2.0, max_iterations=1.5), "max_iterations"),
+            (lambda: fuge.solve(ALPHA, GAP, 2.0, threads=None), "threads"),
             (lambda: fuge.solve(ALPHA, GAP, 2.0, progress=1), "progress"),
         ]:
             with self.assertRaisesRegex(TypeError, word):
                 call()
+
+    def test_negative_threads(self):
+        for call in (lambda: fuge.solve(ALPHA, GAP, 2.0, threads=-1), lambda: fuge.Solver(ALPHA, threads=-1)):
+            self.refused(
+                fuge.InputError, fuge.Status.ERR_OPTION, call, "threads = -1 is negative: use 0 for all cores"
+            )
 
     def test_words(self):
         self.refused(

@@ -7,12 +7,13 @@ program fuge_program
   use chosen_transforms, only: TRANSFORMS
   use command_line, only: arguments
   use deck_problem, only: solve_deck
-  use fuge, only: fuge_info, FUGE_VERSION
+  use fuge, only: fuge_info, fuge_options, FUGE_VERSION
   use matrix_problem, only: solve_body, solve_influence
   use mesh_problem, only: solve_meshes
   use option_checks, only: check_options, WITH_ALPHA, WITH_DECK, WITH_MATRICES, WITH_MESHES, WITH_SURFACE
   use option_table, only: HELP
   use progress_log, only: progress
+  use solver_options, only: take_solver_options
   use surface_problem, only: solve_surface
   use text_table, only: table
   implicit none
@@ -64,23 +65,25 @@ contains
   subroutine solve(given, info)
     type(arguments), intent(in) :: given
     type(fuge_info), intent(inout) :: info
+    type(fuge_options) :: options
     type(progress) :: log
     integer :: kind
 
     call check_options(given, kind, info)
+    call take_solver_options(given, options, info)
     if (info%failed()) return
     call log%start(given%has('verbose'))
     select case (kind)
     case (WITH_ALPHA)
-      call solve_influence(given, log, info)
+      call solve_influence(given, options, log, info)
     case (WITH_MATRICES)
-      call solve_body(given, log, info)
+      call solve_body(given, options, log, info)
     case (WITH_MESHES)
-      call solve_meshes(given, log, info)
+      call solve_meshes(given, options, log, info)
     case (WITH_DECK)
-      call solve_deck(given, log, info)
+      call solve_deck(given, options, log, info)
     case (WITH_SURFACE)
-      call solve_surface(given, log, info)
+      call solve_surface(given, options, log, info)
     end select
     if (.not. info%failed()) call log%say('done')
   end subroutine solve

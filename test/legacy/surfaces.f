@@ -9,7 +9,8 @@ C     Hertz's roller and a wave.
       CALL VERDCT
       END
 
-C     Two cells by FFT, on one thread and two, and by their matrix.
+C     Two cells by FFT, by all cores, one thread and two, and by their
+C     matrix.
       SUBROUTINE BYFFT
       DOUBLE PRECISION X(2), WIDTH(2), GAP(2), ALPHA(2,2), F(2), C(2),
      $                 F0, V0, FM(2), CM(2), VM, RESID, EPS
@@ -23,7 +24,7 @@ C     Two cells by FFT, on one thread and two, and by their matrix.
       CALL FUGESV(2, ALPHA, 2, GAP, 3.D0, FM, CM, VM, INFO)
       CALL STATUS('FUGESV of the cells', INFO, 0)
       F0 = 3.D0
-      DO 10 NTHR = 1, 2
+      DO 10 NTHR = 0, 2
         CALL FUGEFX(2, 1.D0, 100.D0, 1, 0, NTHR, GAP, 0, F0, V0, 0.D0,
      $              0, F, C, NCON, NITER, RESID, MSG, INFO)
         CALL STATUS('two cells', INFO, 0)
@@ -203,7 +204,7 @@ C     has all bits set: no operation makes it, so that none can trap.
         IF (K .EQ. 3) ESTAR = -1.D0
         IF (K .EQ. 4) NELEM = 7
         IF (K .EQ. 5) NBOUND = 2
-        IF (K .EQ. 6) NTHR = 0
+        IF (K .EQ. 6) NTHR = -1
         IF (K .EQ. 7) F0 = -3.D0
         IF (K .EQ. 8) NHELD = 1
         IF (K .EQ. 8) V0 = BAD

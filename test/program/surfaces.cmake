@@ -27,13 +27,14 @@ endfunction()
 
 set(free --boundary free --load 100 --modulus 115385)
 if(FUGE_WITH_FFTW)
-  # The same ball in eight ways.
+  # The same ball in nine ways.
   program_solves_surface(grid ball grid_map.csv --surface ball.txt ${free} --level none)
   program_solves_surface(centre ball centre.vti --surface ball.txt ${free} --level mean --element centre)
   program_solves_surface(sdf ball sdf_map.csv --surface ball.sdf ${free} --scale 1e3 --level mean)
   program_solves_surface(columns ball "" --surface columns.txt ${free} --height-scale 1e-3 --level mean)
   program_solves_surface(spacing ball "" --surface plain.txt ${free} --spacing 0.0035 --level mean)
   program_solves_surface(filled ball "" --surface holes.txt ${free} --fill --level none)
+  program_solves_surface(threads ball "" --surface ball.txt ${free} --level none --threads 3)
   # A job file, whose paths begin at its folder.
   file(WRITE "${folder}/job.txt"
     "surface ball.txt\nboundary free\nlevel none\nload 100   # N\nmodulus 115385\n")

@@ -1,5 +1,5 @@
-/* Processes that are forked after solves in several threads, and while other threads solve and plan, solve in several
- * threads themselves.  Answers must be those of the first process, bit for bit.
+/* Processes that are forked after solves in several threads, in the middle of one, and while other threads solve and
+ * plan, solve in several threads themselves.  Answers must be those of the first process, bit for bit.
  *
  * POSIX lets a child of a process with several threads call very little; with the C libraries that let it allocate
  * memory fuge works.  A child that does not end within its time limit is killed, and has failed. */
@@ -10,7 +10,7 @@
 #include <unistd.h>
 #include "check.h"
 
-enum { CELLS = 16384, SIDE = 48, SMALL = 600, THREADS = 2, LIMIT = 20, ROUNDS = 20 };
+enum { CELLS = 16384, SIDE = 96, SMALL = 600, THREADS = 2, LIMIT = 20, ROUNDS = 20 };
 
 /* The address sanitizer's allocator may be locked by another thread at a fork, for ever. */
 #ifdef __SANITIZE_ADDRESS__
@@ -29,35 +29,42 @@ static void make_gap(int n, double *gap) {
   }
 }
 
-/* Forces of the load 0.01; 0 if all went well. */
-static int solve(const fuge_operator *op, int n, double *force) {
+/* Forces of the load 0.01, by a solve that calls `progress`; 0 if all went well. */
+static int solve_with(fuge_progress progress, const fuge_operator *op, int n, double *force) {
+  fuge_options options;
   fuge_solver *s = NULL;
   double *gap = malloc((size_t)n * sizeof *gap);
   int failed = gap == NULL;
   if (failed) return failed;
   make_gap(n, gap);
-  failed = fuge_solver_new(op, NULL, &s, NULL, 0) || fuge_set_gap(s, gap, NULL) || fuge_set_load(s, 1.0e-2) ||
-           fuge_solve(s) || fuge_get_force(s, force);
+  fuge_default_options(&options);
+  options.threads = THREADS;
+  failed = fuge_solver_new(op, &options, &s, NULL, 0) || fuge_set_progress(s, progress, NULL) ||
+           fuge_set_gap(s, gap, NULL) || fuge_set_load(s, 1.0e-2) || fuge_solve(s) || fuge_get_force(s, force);
   fuge_solver_free(&s);
   free(gap);
   return failed;
 }
 
+static int solve(const fuge_operator *op, int n, double *force) { return solve_with(NULL, op, n, force); }
+
 static int new_line(int n, fuge_operator **op) {
-  return fuge_operator_halfplane(n, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, op, NULL, 0) ||
-         fuge_operator_set_threads(*op, THREADS, NULL, 0);
+  return fuge_operator_halfplane(n, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, op, NULL, 0);
 }
 
 static int new_area(fuge_operator **op) {
-  return fuge_operator_halfspace(SIDE, SIDE, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, op, NULL, 0) ||
-         fuge_operator_set_threads(*op, THREADS, NULL, 0);
+  return fuge_operator_halfspace(SIDE, SIDE, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, op, NULL, 0);
+}
+
+static int differs_with(fuge_progress progress, const fuge_operator *op, int n, const double *expected) {
+  double *force = malloc((size_t)n * sizeof *force);
+  int bad = force == NULL || solve_with(progress, op, n, force) || memcmp(force, expected, (size_t)n * sizeof *force) != 0;
+  free(force);
+  return bad;
 }
 
 static int differs(const fuge_operator *op, int n, const double *expected) {
-  double *force = malloc((size_t)n * sizeof *force);
-  int bad = force == NULL || solve(op, n, force) || memcmp(force, expected, (size_t)n * sizeof *force) != 0;
-  free(force);
-  return bad;
+  return differs_with(NULL, op, n, expected);
 }
 
 /* Does a run with operators of its own give the same answers? */
@@ -90,6 +97,40 @@ static int in_child(int (*work)(void)) {
   }
   if (child < 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
   return WEXITSTATUS(status);
+}
+
+/* Is this a process that fork_in_solve has forked? How many there are, and how many of them have failed. */
+static int is_forked, forks, failed_forks;
+
+/* A progress monitor that forks in each iteration; both processes go on with the solve. */
+static int fork_in_solve(int iteration, double residual, int contacts, void *user) {
+  int status = 0;
+  pid_t child;
+  (void)iteration;
+  (void)residual;
+  (void)contacts;
+  (void)user;
+  if (is_forked) return 0;
+  fflush(stdout);
+  child = fork();
+  if (child == 0) {
+    is_forked = 1;
+    alarm(LIMIT);
+    return 0;
+  }
+  forks++;
+  failed_forks += child < 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+  return 0;
+}
+
+/* A child that is forked in the middle of a solve finishes it alone, and solves again in threads of its own. */
+static void fork_during_solve(const fuge_operator *op, int n, const double *expected) {
+  int bad = differs_with(fork_in_solve, op, n, expected);
+  if (is_forked) _exit(bad || differs(op, n, expected));
+  CHECK_INT(bad, 0);
+  CHECK(forks > 2);
+  CHECK_INT(failed_forks, 0);
+  forks = 0;
 }
 
 static int solve_in_grandchild(void) { return differs(line, CELLS, line_force) || in_child(solve_all) != 0; }
@@ -155,6 +196,8 @@ int main(void) {
   CHECK_INT(in_child(solve_all), 0);
   CHECK_INT(in_child(differs_anew), 0);
   CHECK_INT(in_child(solve_in_grandchild), 0);
+  fork_during_solve(line, CELLS, line_force);
+  fork_during_solve(area, SIDE * SIDE, area_force);
   if (FORKS_BESIDE_THREADS) fork_beside_threads();
   CHECK_INT(solve_all(), 0);
   fuge_operator_free(&own);

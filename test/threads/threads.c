@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include "check.h"
 
-enum { THREADS = 4, N = 48, CELLS = 256, SIDE = 16, VALUES = 2400, TEXT = 2048 };
+/* The area of LARGE cells along each side is large enough for threads of its solves. */
+enum { THREADS = 4, N = 48, CELLS = 256, SIDE = 16, LARGE = 72, VALUES = 2400, TEXT = 2048 };
 static const double LOAD = 1.0e-3;
 
 typedef struct {
@@ -63,9 +64,11 @@ static int spring(int n, const double *f, double *u, void *user) {
   return 0;
 }
 
-/* Three loads one after the other by one solver. */
-static void solve(record *r, const fuge_operator *op, int n, int method, int number) {
-  double gap[CELLS], force[CELLS], open[CELLS], approach, rate;
+/* Three loads one after the other by one solver, whose solves have `threads` threads; results at N points about the
+ * middle. */
+static void solve_by(record *r, const fuge_operator *op, int n, int method, int threads, int number) {
+  double gap[LARGE * LARGE], force[LARGE * LARGE], open[LARGE * LARGE], approach, rate;
+  const int first = (n - N) / 2;
   char message[256];
   fuge_options options;
   fuge_solver *s = NULL;
@@ -73,6 +76,7 @@ static void solve(record *r, const fuge_operator *op, int n, int method, int num
   fuge_default_options(&options);
   options.method = method;
   options.keep_history = method == FUGE_TABLEAU;
+  options.threads = threads;
   make_gap(n, number, gap);
   expect(r, fuge_solver_new(op, &options, &s, NULL, 0), FUGE_DONE);
   expect(r, fuge_set_gap(s, gap, NULL), FUGE_DONE);
@@ -84,13 +88,13 @@ static void solve(record *r, const fuge_operator *op, int n, int method, int num
     expect(r, fuge_get_motion(s, &approach), FUGE_DONE);
     expect(r, fuge_get_info(s, &info), FUGE_DONE);
   }
-  put(r, force, N);
-  put(r, open, N);
+  put(r, force + first, N);
+  put(r, open + first, N);
   put(r, &approach, 1);
   put(r, &info.residual, 1);
-  if (method != FUGE_ITERATIVE) {
+  if (method != FUGE_ITERATIVE || threads > 1) {
     expect(r, fuge_get_derivative(s, NULL, 1.0, force, NULL, &rate), FUGE_DONE);
-    put(r, force, N);
+    put(r, force + first, N);
     put(r, &rate, 1);
   }
   /* A refusal, with numbers in its message. */
@@ -99,6 +103,10 @@ static void solve(record *r, const fuge_operator *op, int n, int method, int num
   fuge_solver_message(s, message, sizeof message);
   put_text(r, message);
   fuge_solver_free(&s);
+}
+
+static void solve(record *r, const fuge_operator *op, int n, int method, int number) {
+  solve_by(r, op, n, method, 1, number);
 }
 
 static void follow(record *r, int number) {
@@ -156,17 +164,16 @@ static void solve_own_cells(record *r, int number) {
   fuge_operator_free(&own);
 }
 
-/* Threads that share the products of an area of one's own. One in a single round, for helgrind: it takes it for a race
- * that glibc gives the stack of a thread that has ended to another one. */
-static int product_threads = 3;
+/* Threads of the solves of an area of one's own. One in a single round, for helgrind: it takes it for a race that glibc
+ * gives the stack of a thread that has ended to another one. */
+static int solve_threads = 3;
 
 /* An area of one's own. */
 static void solve_own_area(record *r, int number) {
   fuge_operator *own = NULL;
-  expect(r, fuge_operator_halfspace(SIDE, SIDE - number, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_PERIODIC, &own, NULL, 0),
+  expect(r, fuge_operator_halfspace(LARGE, LARGE - number, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_PERIODIC, &own, NULL, 0),
          FUGE_DONE);
-  expect(r, fuge_operator_set_threads(own, product_threads, NULL, 0), FUGE_DONE);
-  solve(r, own, SIDE * (SIDE - number), FUGE_ITERATIVE, number);
+  solve_by(r, own, LARGE * (LARGE - number), FUGE_ITERATIVE, solve_threads, number);
   fuge_operator_free(&own);
 }
 
@@ -276,7 +283,7 @@ int main(int argc, char **argv) {
     first[k].number = jobs[k].number = k + 1;
     jobs[k].rounds = argc > 1 ? atoi(argv[1]) : 5;
   }
-  if (jobs[0].rounds == 1) product_threads = 1;
+  if (jobs[0].rounds == 1) solve_threads = 1;
   run_all(first, make_first_plans);
   make_ground();
   run_all(jobs, work);

@@ -13,8 +13,7 @@ module fuge_halfspace_fft
   use fuge_operator_type, only: fuge_operator
   use fuge_single_grid_convolution, only: round_kernel, single_kernel => grid_kernel
   use fuge_single_grid_plan, only: single_plan => grid_plan
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, &
-    FUGE_ERR_OPTION
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private
 

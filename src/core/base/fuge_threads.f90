@@ -10,6 +10,9 @@ module fuge_threads
 
   public :: begin_children_with, run_in_parts, run_in_threads, run_jobs, share, threads_here, usable_threads
 
+  !> More threads than this do not start, however many are asked for: each takes memory of the process.
+  integer, parameter :: MOST_THREADS = 1024
+
   !> Work in parts, with the data that it needs.
   type, abstract, public :: work_in_parts
   contains
@@ -95,13 +98,13 @@ module fuge_threads
 
 contains
 
-  !> Let up to `threads` >= 1 threads share the work of this one. End the team in the same thread, those begun later
-  !> first.
+  !> Let up to `threads` >= 1 threads, and no more than MOST_THREADS, share the work of this one. End the team in the same
+  !> thread, those begun later first.
   subroutine begin(self, threads)
     class(thread_team), intent(inout) :: self
     integer, intent(in) :: threads
 
-    if (threads > 1) self%team = begin_team(int(threads, c_int))
+    if (threads > 1) self%team = begin_team(int(min(threads, MOST_THREADS), c_int))
   end subroutine begin
 
   !> End the team; without effect unless it was begun.

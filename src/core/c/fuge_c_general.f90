@@ -46,6 +46,7 @@ contains
     options%pivot_rule = int(defaults%pivot_rule, c_int)
     options%max_iterations = int(defaults%max_iterations, c_int)
     options%keep_history = merge(1_c_int, 0_c_int, defaults%keep_history)
+    options%threads = int(defaults%threads, c_int)
     options%tolerance = defaults%tolerance
     options%reserved_int = 0
     options%reserved = 0

@@ -12,8 +12,7 @@ module fuge_c_operator
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALLBACK, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, &
-    FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALLBACK, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
   implicit none
   private
 

@@ -70,7 +70,7 @@ contains
   end function c_solve_dense
 
   !> The options are checked here, so that the call with the error says so, and again by each
-  !> `solve`, since a Fortran caller has no such constructor: four comparisons.
+  !> `solve`, since a Fortran caller has no such constructor: five comparisons.
   function c_solver_new(operator, options, destination, message, length) bind(c, name='fuge_solver_new') result(status)
     type(c_ptr), intent(in), value :: operator, options, destination, message
     integer(c_size_t), intent(in), value :: length

@@ -15,8 +15,8 @@ module fuge_c_types
 
   !> struct fuge_options.
   type, bind(c), public :: c_options
-    integer(c_int) :: method, pivot_rule, max_iterations, keep_history
-    integer(c_int) :: reserved_int(4)
+    integer(c_int) :: method, pivot_rule, max_iterations, keep_history, threads
+    integer(c_int) :: reserved_int(3)
     real(c_double) :: tolerance
     real(c_double) :: reserved(7)
   end type c_options
@@ -64,6 +64,7 @@ contains
     options%pivot_rule = int(source%pivot_rule)
     options%max_iterations = int(source%max_iterations)
     options%keep_history = source%keep_history /= 0
+    options%threads = int(source%threads)
     options%tolerance = source%tolerance
   end function options_at
 

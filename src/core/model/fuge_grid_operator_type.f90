@@ -5,7 +5,7 @@ module fuge_grid_operator_type
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE
+  use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE
   implicit none
   private
 

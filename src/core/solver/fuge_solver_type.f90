@@ -38,8 +38,9 @@ module fuge_solver_type
     logical, private :: solved_by_products = .false.
     !> The last solve was accepted, and had a load: only then are there derivatives.
     logical, private :: has_solution = .false.
-    !> The report of the last solution, for its derivatives.
+    !> The report of the last solution, for its derivatives, and how many threads share their work.
     type(fuge_info), private :: last_report
+    integer, private :: threads = 1
   contains
     procedure :: solve
     procedure :: start_from
@@ -55,12 +56,13 @@ contains
   !> Solve the contact problem (paper, equations 9 to 11) and certify the solution.
   !>
   !> `operator` displacements per force, `problem` gaps and load, `options` as in `fuge_options` (defaults when
-  !> absent). `monitor` hears of each iteration and may cancel; without a load there are none. On return info%status
-  !> is FUGE_DONE, with a message only if the contact reaches the rim of a free grid, or the first of these warnings
-  !> that is true: FUGE_WARN_RESIDUAL with the residual in the message; FUGE_WARN_NOT_UNIQUE where alpha is singular on
-  !> the points that touch, with or without force (the forces are then one of many possible), or the contact does not
-  !> resist a mode (its motion is then one of many possible), or both; FUGE_WARN_ILL_CONDITIONED if info%force_error,
-  !> the estimated error of the forces, is above 1e-3. Or it is an error that leaves `solution` untouched:
+  !> absent); options%threads share the work, and change no result. `monitor` hears of each iteration, in the thread of
+  !> the call, and may cancel; without a load there are none. On return info%status is FUGE_DONE, with a message only if
+  !> the contact reaches the rim of a free grid, or the first of these warnings that is true: FUGE_WARN_RESIDUAL with
+  !> the residual in the message; FUGE_WARN_NOT_UNIQUE where alpha is singular on the points that touch, with or without
+  !> force (the forces are then one of many possible), or the contact does not resist a mode (its motion is then one of
+  !> many possible), or both; FUGE_WARN_ILL_CONDITIONED if info%force_error, the estimated error of the forces, is above
+  !> 1e-3. Or it is an error that leaves `solution` untouched:
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,
   !> FUGE_ERR_CANCELLED. The next solve is possible after any of them.
@@ -96,8 +98,9 @@ contains
     if (.not. (space%is_alone() .or. info%failed())) call check_shared_problem(problem, chosen, space, info)
     if (info%failed()) return
 
-    if (chosen%threads == 0) chosen%threads = usable_threads()
-    call team%begin(chosen%threads)
+    self%threads = chosen%threads
+    if (self%threads == 0) self%threads = usable_threads()
+    call team%begin(self%threads)
     if (is_unloaded(problem)) then
       call solve_without_load(problem, space, candidate, info)
       if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
@@ -221,7 +224,7 @@ contains
 
   !> How the last solution changes with gaps and load, to first order, and exactly as long as the contact set stays:
   !> df, dc and dq, by triangular solves with the last factor; after the iteration by products on the contact set, to
-  !> the tolerance of the solve.
+  !> the tolerance of the solve. As many threads share the work as in the last solve.
   !>
   !> `operator` that of the last solve; `gap_change` (n) length and `load_change` force; `change` the changes in the
   !> order of `fuge_solution`. The contact stiffness dF_0/dv_0 is 1/change%motion(1) for gap_change 0 and load_change
@@ -254,20 +257,22 @@ contains
     if (.not. self%has_solution) then
       call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
     else if (self%solved_by_products) then
-      call differentiate(self%by_products, operator, gap_change, load_change, change, info)
+      call differentiate(self%by_products, operator, gap_change, load_change, self%threads, change, info)
     else
-      call differentiate(self%by_matrix, operator, gap_change, load_change, change, info)
+      call differentiate(self%by_matrix, operator, gap_change, load_change, self%threads, change, info)
     end if
   end subroutine derivative_by_loads
 
-  !> The derivative of the last solution of `engine`, for changes that fit it.
-  subroutine differentiate(engine, operator, gap_change, load_change, change, info)
+  !> The derivative of the last solution of `engine`, for changes that fit it, by up to `threads` threads.
+  subroutine differentiate(engine, operator, gap_change, load_change, threads, change, info)
     class(contact_engine), intent(in) :: engine
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap_change(:), load_change(:)
+    integer, intent(in) :: threads
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(inout) :: info
     type(point_space) :: space
+    type(thread_team) :: team
 
     space = operator%ranks()
     call check_changes(engine, operator%points(), gap_change, load_change, info)
@@ -277,7 +282,9 @@ contains
       call report(info, FUGE_ERR_OPTION, 'load_change differs between the ranks')
       return
     end if
+    call team%begin(threads)
     call engine%derivative(operator, gap_change, load_change, change, info)
+    call team%end()
   end subroutine differentiate
 
   !> Refuse changes that fit no solution of n points.

@@ -130,7 +130,7 @@ contains
     if (associated(self%shared)) then
       call self%shared%influence%convolve(self%shared%plan, force, displacement)
     else if (associated(self%whole)) then
-      call self%whole%influence%convolve(self%whole%plan, size(force), force, displacement, 1, status)
+      call self%whole%influence%convolve(self%whole%plan, size(force), force, displacement, status)
     end if
   end subroutine multiply
 
@@ -145,7 +145,7 @@ contains
     if (associated(self%shared)) then
       call self%shared%inverse%convolve(self%shared%plan, displacement, force)
     else if (associated(self%whole)) then
-      call self%whole%inverse%convolve(self%whole%plan, size(force), displacement, force, 1, status)
+      call self%whole%inverse%convolve(self%whole%plan, size(force), displacement, force, status)
     end if
   end subroutine precondition
 
@@ -160,7 +160,7 @@ contains
     if (associated(self%shared)) then
       call self%shared%inverse%convolve(self%shared%plan, displacement, force, compliance)
     else if (associated(self%whole)) then
-      call self%whole%inverse%convolve(self%whole%plan, size(force), displacement, force, 1, status, compliance)
+      call self%whole%inverse%convolve(self%whole%plan, size(force), displacement, force, status, compliance)
     end if
   end subroutine precondition_on_bed
 

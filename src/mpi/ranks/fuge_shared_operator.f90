@@ -5,11 +5,9 @@ module fuge_shared_operator
   use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_rank_communicator, only: check_mpi, free_communicator, new_communicator, rank_communicator
-  use fuge_number_text, only: text
   use fuge_point_space, only: point_space
   use fuge_shared_problem, only: differ
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_OPTION, &
-    FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_OPTION
   use mpi_f08, only: MPI_Comm
   implicit none
   private

@@ -3,8 +3,8 @@ module deck_cases
   use chosen_stiffness, only: stored_stiffness
   use deck_model, only: structure
   use fuge, only: dp => fuge_dp, fuge_body, fuge_case_solutions, fuge_condense, fuge_condensed, fuge_deck_supports, &
-    fuge_dense_operator, fuge_describe_mechanism, fuge_find_mechanism, fuge_info, fuge_load_cases, fuge_problem, &
-    fuge_solve_cases, fuge_solver, FUGE_ERR_NO_EQUILIBRIUM
+    fuge_dense_operator, fuge_describe_mechanism, fuge_find_mechanism, fuge_info, fuge_load_cases, fuge_options, &
+    fuge_problem, fuge_solve_cases, fuge_solver, FUGE_ERR_NO_EQUILIBRIUM
   use number_words, only: number_text, read_integer
   use progress_log, only: progress
   implicit none
@@ -36,8 +36,9 @@ module deck_cases
 contains
 
   !> Solve all cases. One that fails does not harm the others. Errors: those of the supports and of the matrix.
-  subroutine solve_cases(model, results, log, info)
+  subroutine solve_cases(model, options, results, log, info)
     type(structure), intent(in) :: model
+    type(fuge_options), intent(in) :: options
     type(case_results), intent(out) :: results
     type(progress), intent(in) :: log
     type(fuge_info), intent(inout) :: info
@@ -68,7 +69,7 @@ contains
       group%member = pack([(j, j=k, cases)], [(all(held(:, j) .eqv. held(:, k)), j=k, cases)])
       group%fixed = pack([(j, j=1, size(held, 1))], held(:, k))
       group%displacement = displaced(group%fixed, group%member)
-      call solve_group(model, stiffness, group, results)
+      call solve_group(model, stiffness, group, options, results)
       call log%say(number_text(count(solved))//' load cases are solved')
     end do
   end subroutine solve_cases
@@ -94,10 +95,11 @@ contains
   end subroutine find_supports
 
   !> Solve the cases of a group.
-  subroutine solve_group(model, stiffness, group, results)
+  subroutine solve_group(model, stiffness, group, options, results)
     type(structure), intent(in) :: model
     type(stored_stiffness), intent(in) :: stiffness
     type(case_group), intent(in) :: group
+    type(fuge_options), intent(in) :: options
     type(case_results), intent(inout) :: results
     type(fuge_body) :: body
     type(fuge_case_solutions) :: solutions
@@ -113,7 +115,7 @@ contains
     call name_link(model, step%message)
     condensation = step
     allocate (u(model%degrees(), size(group%member)))
-    if (.not. step%failed()) call solve_contact(model, group, condensed, solutions, step)
+    if (.not. step%failed()) call solve_contact(model, group, condensed, options, solutions, step)
     if (.not. step%failed()) &
       call condensed%recover_cases(model%loads(:, group%member), solutions, u, step, group%displacement)
     call condensed%clear()
@@ -151,10 +153,11 @@ contains
   end subroutine name_link
 
   !> Forces and gaps of the links in the cases of a group.
-  subroutine solve_contact(model, group, condensed, solutions, info)
+  subroutine solve_contact(model, group, condensed, options, solutions, info)
     type(structure), intent(in) :: model
     type(case_group), intent(in) :: group
     type(fuge_condensed), intent(in), target :: condensed
+    type(fuge_options), intent(in) :: options
     type(fuge_case_solutions), intent(inout) :: solutions
     type(fuge_info), intent(inout) :: info
     type(fuge_dense_operator) :: operator
@@ -165,7 +168,8 @@ contains
 
     call model%links%pose_cases(condensed, model%loads(:, group%member), problem, cases, info, group%displacement)
     if (.not. info%failed()) call operator%set(condensed%alpha, info)
-    if (.not. info%failed()) call fuge_solve_cases(solver, operator, problem, cases, solutions, info)
+    if (.not. info%failed()) call fuge_solve_cases(solver, operator, problem, cases, solutions, info, &
+                                                        options)
     if (info%failed()) return
     do j = 1, size(group%member)
       if (solutions%report(j)%status /= FUGE_ERR_NO_EQUILIBRIUM .or. .not. allocated(cases%load)) cycle

@@ -5,7 +5,7 @@ module deck_problem
   use deck_fields, only: is_mesh_file, read_drawn_mesh, write_fields
   use deck_model, only: structure
   use deck_table, only: write_links
-  use fuge, only: fuge_info, fuge_mesh
+  use fuge, only: fuge_info, fuge_mesh, fuge_options
   use number_words, only: number_text
   use problem_solution, only: warn
   use progress_log, only: progress
@@ -17,8 +17,9 @@ module deck_problem
 contains
 
   !> --deck, --links. Where cases fail the tables are written all the same, and `info` has the first failure.
-  subroutine solve_deck(given, log, info)
+  subroutine solve_deck(given, options, log, info)
     type(arguments), intent(in) :: given
+    type(fuge_options), intent(in) :: options
     type(progress), intent(in) :: log
     type(fuge_info), intent(inout) :: info
     type(structure) :: model
@@ -27,7 +28,7 @@ contains
 
     call model%read(given, log, info)
     if (is_mesh_file(given%file('field')) .and. .not. info%failed()) call read_drawn_mesh(given, mesh, info)
-    if (.not. info%failed()) call solve_cases(model, results, log, info)
+    if (.not. info%failed()) call solve_cases(model, options, results, log, info)
     if (info%failed()) return
     if (given%has('field')) call write_fields(given%file('field'), mesh, model, results, info)
     if (.not. info%failed()) call write_links(given%file('output'), model, results, info)

@@ -4,7 +4,7 @@ module matrix_problem
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use command_line, only: arguments, refuse
   use contact_table, only: write_contact, write_displacements
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, FUGE_ERR_MODES
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_solution, FUGE_ERR_MODES
   use matrix_body, only: elastic_body
   use matrix_files, only: read_square, read_vector, read_modes
   use number_words, only: number_text, read_integer, read_real
@@ -18,8 +18,9 @@ module matrix_problem
 contains
 
   !> --alpha.
-  subroutine solve_influence(given, log, info)
+  subroutine solve_influence(given, options, log, info)
     type(arguments), intent(in) :: given
+    type(fuge_options), intent(in) :: options
     type(progress), intent(in) :: log
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable, target :: alpha(:, :)
@@ -31,13 +32,14 @@ contains
     call log%say('influence matrix of '//number_text(size(alpha, 1))//' points is read')
     call read_vector(given%file('gap'), size(alpha, 1), problem%gap, info)
     call take_points(given, problem, info)
-    if (.not. info%failed()) call solve(alpha, problem, solution, log, info)
+    if (.not. info%failed()) call solve(alpha, problem, options, solution, log, info)
     if (.not. info%failed()) call write_contact(given%file('output'), problem, solution, info)
   end subroutine solve_influence
 
   !> --stiffness and --contact.
-  subroutine solve_body(given, log, info)
+  subroutine solve_body(given, options, log, info)
     type(arguments), intent(in) :: given
+    type(fuge_options), intent(in) :: options
     type(progress), intent(in) :: log
     type(fuge_info), intent(inout) :: info
     type(elastic_body), target :: body
@@ -52,7 +54,7 @@ contains
     call read_vector(given%file('gap'), body%points(), problem%gap, info)
     call take_points(given, problem, info)
     if (.not. info%failed()) call body%pose(problem, info)
-    if (.not. info%failed()) call solve(body%condensed%alpha, problem, solution, log, info)
+    if (.not. info%failed()) call solve(body%condensed%alpha, problem, options, solution, log, info)
     if (size(body%condensed%resultant) > 0) call explain_motions(info)
     if (info%failed()) return
     call take_warning(condensation, info)

@@ -3,7 +3,7 @@ module mesh_problem
   use chosen_stiffness, only: stored_stiffness
   use command_line, only: arguments, refuse
   use fuge, only: dp => fuge_dp, fuge_condense, fuge_condensed, fuge_elastic_body, fuge_info, fuge_join_bodies, &
-    fuge_joined_bodies, fuge_problem, fuge_solution, fuge_surface_pair
+    fuge_joined_bodies, fuge_options, fuge_problem, fuge_solution, fuge_surface_pair
   use mesh_body, only: model_body, read_bodies, refuse_memory
   use mesh_conditions, only: take_conditions
   use mesh_fields, only: check_fields, write_fields
@@ -22,8 +22,9 @@ module mesh_problem
 contains
 
   !> --mesh and --pair.
-  subroutine solve_meshes(given, log, info)
+  subroutine solve_meshes(given, options, log, info)
     type(arguments), intent(in) :: given
+    type(fuge_options), intent(in) :: options
     type(progress), intent(in) :: log
     type(fuge_info), intent(inout) :: info
     type(model_body), allocatable :: bodies(:)
@@ -47,7 +48,7 @@ contains
     if (.not. info%failed()) call joined%pose(condensed, problem, info)
     if (.not. info%failed()) call take_excluded(given, bodies, pairs, joined, problem, info)
     if (.not. info%failed()) then
-      call solve(condensed%alpha, problem, solution, log, info)
+      call solve(condensed%alpha, problem, options, solution, log, info)
       call explain_motion(bodies, joined, condensed, info)
     end if
     if (info%failed()) return

@@ -6,12 +6,12 @@ module option_table
   public :: may_repeat, option_number, takes_value
 
   !> The names of the options, after two hyphens.
-  character(len=12), parameter, public :: OPTION_NAMES(52) = [character(len=12) :: &
+  character(len=12), parameter, public :: OPTION_NAMES(53) = [character(len=12) :: &
     'alpha', 'approach', 'body', 'boundary', 'cases', 'clearance', 'compliance', 'contact', 'crease', 'deck', &
     'element', 'exclude', 'external', 'faceted', 'field', 'fill', 'fixed', 'floats', 'gap', 'height-scale', 'help', &
     'level', 'limit', 'limit-upper', 'links', 'load', 'loads', 'matrix', 'mesh', 'modes', 'modulus', 'motion', &
     'node-to-face', 'normals', 'output', 'pair', 'play', 'poisson', 'pressure', 'reach', 'resultant', 'rows', &
-    'scale', 'spacing', 'stiffness', 'support', 'supports', 'surface', 'tied', 'verbose', 'version', 'young']
+    'scale', 'spacing', 'stiffness', 'support', 'supports', 'surface', 'threads', 'tied', 'verbose', 'version', 'young']
   !> Those without a value.
   character(len=12), parameter :: WITHOUT_VALUE(8) = [character(len=12) :: &
     'faceted', 'fill', 'floats', 'help', 'node-to-face', 'tied', 'verbose', 'version']
@@ -25,7 +25,7 @@ module option_table
     'loads', 'mesh', 'modes', 'play', 'resultant', 'rows', 'stiffness', 'supports', 'surface']
 
   !> What `fuge --help` prints.
-  character(len=*), parameter, public :: HELP(99) = [character(len=96) :: &
+  character(len=*), parameter, public :: HELP(102) = [character(len=96) :: &
     'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
     '', &
     '  fuge --mesh FILE --stiffness FILE [--mesh FILE --stiffness FILE ..] --pair SURFACE:SURFACE', &
@@ -112,6 +112,9 @@ module option_table
     '  --spacing H[,H]         from point to point along x and y, where the file does not say', &
     '  --boundary WHAT         the surface is periodic (default), free, periodic-x or periodic-y', &
     '  --element WHAT          displacements: mean of a cell (default), or at its centre', &
+    '', &
+    'Every solve', &
+    '  --threads N             share its work; 0: all cores (default). They change no result', &
     '', &
     'Results', &
     '  --output FILE           table of forces, gaps, pressures, a line for each load of a surface,', &

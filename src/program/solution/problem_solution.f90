@@ -1,7 +1,7 @@
 !> The solution of a contact problem whose influence matrix is known, and what warnings become.
 module problem_solution
   use, intrinsic :: iso_fortran_env, only: error_unit
-  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver
   use number_words, only: number_text
   use progress_log, only: progress
   implicit none
@@ -11,9 +11,10 @@ module problem_solution
 
 contains
 
-  subroutine solve(alpha, problem, solution, log, info)
+  subroutine solve(alpha, problem, options, solution, log, info)
     real(dp), intent(in), target, contiguous :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: options
     type(fuge_solution), intent(inout) :: solution
     type(progress), intent(in) :: log
     type(fuge_info), intent(inout) :: info
@@ -21,7 +22,7 @@ contains
     type(fuge_solver) :: solver
 
     call operator%set(alpha, info)
-    if (.not. info%failed()) call solver%solve(operator, problem, solution, info)
+    if (.not. info%failed()) call solver%solve(operator, problem, solution, info, options)
     if (info%failed()) return
     call log%say('contact is solved: '//number_text(info%contacts)//' of '//number_text(size(solution%force)) &
                  //' points, '//number_text(info%iterations)//' contact sets')

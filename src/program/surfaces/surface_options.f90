@@ -1,8 +1,9 @@
 !> What the options of the program say about a measured surface and its loads.
 module surface_options
   use command_line, only: arguments, refuse
-  use fuge, only: dp => fuge_dp, fuge_combined_modulus, fuge_info, fuge_plane_modulus, FUGE_CENTRE, FUGE_FREE, &
-    FUGE_LEVEL_MEAN, FUGE_LEVEL_PLANE, FUGE_MEAN, FUGE_PERIODIC, FUGE_PERIODIC_X, FUGE_PERIODIC_Y, FUGE_PLANE_STRAIN
+  use fuge, only: dp => fuge_dp, fuge_combined_modulus, fuge_info, fuge_options, fuge_plane_modulus, FUGE_CENTRE, &
+    FUGE_FREE, FUGE_LEVEL_MEAN, FUGE_LEVEL_PLANE, FUGE_MEAN, FUGE_PERIODIC, FUGE_PERIODIC_X, FUGE_PERIODIC_Y, &
+    FUGE_PLANE_STRAIN
   implicit none
   private
 
@@ -21,6 +22,8 @@ module surface_options
   integer, parameter :: LEVELS(3) = [FUGE_LEVEL_PLANE, FUGE_LEVEL_MEAN, LEVEL_NONE]
 
   type, public :: surface_settings
+    !> Of the solves.
+    type(fuge_options) :: options
     !> Combined modulus of both bodies; force per length squared.
     real(dp) :: e_star = 0.0_dp
     !> Constants of the library, and their indices among the names above.

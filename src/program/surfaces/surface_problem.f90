@@ -2,8 +2,8 @@
 module surface_problem
   use, intrinsic :: iso_fortran_env, only: error_unit
   use command_line, only: arguments, refuse
-  use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver, &
-    fuge_surface, FUGE_ERR_MEMORY
+  use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_info, fuge_options, fuge_problem, &
+    fuge_solution, fuge_solver, fuge_surface, FUGE_ERR_MEMORY
   use number_words, only: number_text, short_text
   use problem_solution, only: take_warning
   use progress_log, only: progress
@@ -19,8 +19,9 @@ module surface_problem
 contains
 
   !> --surface.
-  subroutine solve_surface(given, log, info)
+  subroutine solve_surface(given, options, log, info)
     type(arguments), intent(in) :: given
+    type(fuge_options), intent(in) :: options
     type(progress), intent(in) :: log
     type(fuge_info), intent(inout) :: info
     type(surface_settings) :: settings
@@ -30,6 +31,7 @@ contains
     type(load_results), allocatable :: results(:)
     character(len=:), allocatable :: note
 
+    settings%options = options
     call take_settings(given, settings, info)
     if (given%has('field') .and. .not. info%failed()) call check_name(given%file('field'), info)
     if (.not. info%failed()) call read_heights(given%file('surface'), settings, surface, info)
@@ -94,7 +96,7 @@ contains
     do k = 1, size(settings%load)
       problem%resultant = settings%load(k)
       if (settings%of_pressure) problem%resultant = settings%load(k)*area
-      call solver%solve(operator, problem, solution, of_load)
+      call solver%solve(operator, problem, solution, of_load, settings%options)
       if (of_load%failed()) then
         info = of_load
         info%message = 'load '//number_text(k)//': '//of_load%message

@@ -96,10 +96,10 @@ static fuge_solver *ball_on_grid(fuge_operator *op, const double *gap) {
 
 enum { NX = 9, NY = 7, CELLS = NX * NY };
 
-/* A ball off the middle: the same forces by products, by more threads and by the matrix. */
+/* A ball off the middle: the same forces by products and by the matrix. */
 static void test_grid(int element) {
   static double alpha[CELLS * CELLS];
-  double x[CELLS], y[CELLS], width_x[CELLS], width_y[CELLS], gap[CELLS], force[CELLS], again[CELLS], right[CELLS];
+  double x[CELLS], y[CELLS], width_x[CELLS], width_y[CELLS], gap[CELLS], force[CELLS], right[CELLS];
   char message[256] = "old";
   fuge_operator *op = NULL, *dense = NULL;
   fuge_solver *solver;
@@ -114,10 +114,6 @@ static void test_grid(int element) {
                 FUGE_DONE, message, "");
   solver = ball_on_grid(op, gap);
   CHECK_DONE(fuge_get_force(solver, force));
-  CHECK_DONE(fuge_operator_set_threads(op, 3, message, sizeof message));
-  CHECK_DONE(fuge_reset(solver));
-  CHECK_DONE(fuge_solve(solver));
-  CHECK_DONE(fuge_get_force(solver, again));
   fuge_solver_free(&solver);
   fuge_operator_free(&op);
   CHECK_DONE(fuge_halfspace_matrix(CELLS, x, y, width_x, width_y, E_STAR, element, 0, 0, alpha, CELLS, NULL, 0));
@@ -126,10 +122,53 @@ static void test_grid(int element) {
   CHECK_DONE(fuge_get_force(solver, right));
   fuge_solver_free(&solver);
   fuge_operator_free(&dense);
-  for (int k = 0; k < CELLS; k++) {
-    CHECK_NEAR(force[k], right[k], 1e-8);
-    CHECK_NEAR(again[k], force[k], 0.0);
+  for (int k = 0; k < CELLS; k++) CHECK_NEAR(force[k], right[k], 1e-8);
+}
+
+enum { SIDE = 128, LARGE = SIDE * SIDE };
+
+/* A ball on a free surface, or waves that repeat without end. */
+static void make_large_gap(int boundary, double *gap) {
+  const double pi = acos(-1.0);
+  for (int k = 0; k < LARGE; k++) {
+    const double x = (k % SIDE + 0.5) / SIDE - 0.5, y = (k / SIDE + 0.5) / SIDE - 0.5;
+    gap[k] = x * x + y * y;
+    if (boundary == FUGE_FREE) continue;
+    gap[k] = 0.1;
+    for (int wave = 1; wave < 40; wave += 2)
+      gap[k] += 0.02 / wave * cos(2.0 * pi * (wave * x + (3 * wave % 29) * y) + wave * wave);
   }
+}
+
+/* Forces and gaps, one after the other, and the derivative of the forces. */
+static void solve_large(const fuge_operator *op, const double *gap, int threads, double *result) {
+  fuge_options options;
+  fuge_solver *solver = NULL;
+  fuge_default_options(&options);
+  options.threads = threads;
+  CHECK_DONE(fuge_solver_new(op, &options, &solver, NULL, 0));
+  CHECK_DONE(fuge_set_gap(solver, gap, NULL));
+  CHECK_DONE(fuge_set_load(solver, 0.05));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_get_force(solver, result));
+  CHECK_DONE(fuge_get_gap(solver, result + LARGE));
+  CHECK_DONE(fuge_get_derivative(solver, NULL, 1.0, result + 2 * LARGE, NULL, NULL));
+  fuge_solver_free(&solver);
+}
+
+/* Any number of threads gives the same results, to the last bit. */
+static void test_threads(int boundary) {
+  static const int numbers[] = {2, 3, 5, 0};
+  static double gap[LARGE], one[3 * LARGE], more[3 * LARGE];
+  fuge_operator *op = NULL;
+  make_large_gap(boundary, gap);
+  CHECK_DONE(fuge_operator_halfspace(SIDE, SIDE, 1.0 / SIDE, 1.0 / SIDE, E_STAR, FUGE_MEAN, boundary, &op, NULL, 0));
+  solve_large(op, gap, 1, one);
+  for (int k = 0; k < 4; k++) {
+    solve_large(op, gap, numbers[k], more);
+    CHECK(memcmp(more, one, sizeof one) == 0);
+  }
+  fuge_operator_free(&op);
 }
 
 /* All boundaries give an operator, also with one row. */
@@ -242,6 +281,8 @@ int main(void) {
   test_refusals();
   test_grid(FUGE_CENTRE);
   test_grid(FUGE_MEAN);
+  test_threads(FUGE_FREE);
+  test_threads(FUGE_PERIODIC);
   test_boundaries();
   test_grid_refusals();
   test_grid_problems();

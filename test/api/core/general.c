@@ -48,8 +48,9 @@ static void test_default_options(void) {
   CHECK_INT(options.pivot_rule, FUGE_PAPER_RULE);
   CHECK_INT(options.max_iterations, 0);
   CHECK_INT(options.keep_history, 0);
+  CHECK_INT(options.threads, 1);
   CHECK_NEAR(options.tolerance, 1e-10, 0.0);
-  for (int k = 0; k < 4; k++) CHECK_INT(options.reserved_int[k], 0);
+  for (int k = 0; k < 3; k++) CHECK_INT(options.reserved_int[k], 0);
   for (int k = 0; k < 7; k++) CHECK_NEAR(options.reserved[k], 0.0, 0.0);
   fuge_default_options(NULL);
 }
@@ -58,6 +59,7 @@ static void test_default_options(void) {
 static void test_struct_layout(void) {
   CHECK_INT(sizeof(fuge_options), 8 * sizeof(int) + 8 * sizeof(double));
   CHECK_INT(offsetof(fuge_options, keep_history), 3 * sizeof(int));
+  CHECK_INT(offsetof(fuge_options, threads), 4 * sizeof(int));
   CHECK_INT(offsetof(fuge_options, tolerance), 8 * sizeof(int));
   CHECK_INT(sizeof(fuge_info), 8 * sizeof(int) + 8 * sizeof(double));
   CHECK_INT(offsetof(fuge_info, preconditionings), 4 * sizeof(int));

@@ -1,4 +1,5 @@
 /* Section "solver" of fuge_core.h: life cycle, data, call order, failures of a solve. */
+#include <limits.h>
 #include "table1.h"
 
 static void check_solved(fuge_solver *solver) {
@@ -96,9 +97,26 @@ static void test_bad_options(void) {
   check_int_option(op, offsetof(fuge_options, max_iterations), -1, FUGE_ERR_OPTION);
   check_int_option(op, offsetof(fuge_options, max_iterations), 7, FUGE_DONE);
   check_int_option(op, offsetof(fuge_options, keep_history), -5, FUGE_DONE);
+  check_int_option(op, offsetof(fuge_options, threads), 0, FUGE_DONE);
+  check_int_option(op, offsetof(fuge_options, threads), 64, FUGE_DONE);
+  check_int_option(op, offsetof(fuge_options, threads), INT_MIN, FUGE_ERR_OPTION);
   const double bad_tolerances[] = {0.0, -1e-10, 1.0, INFINITY, -INFINITY, NAN};
   for (int k = 0; k < 6; k++) check_tolerance(op, bad_tolerances[k], FUGE_ERR_OPTION);
   check_tolerance(op, 0.5, FUGE_DONE);
+  fuge_operator_free(&op);
+}
+
+static void test_negative_threads(void) {
+  char message[256] = "";
+  fuge_options options;
+  fuge_operator *op = NULL;
+  fuge_solver *solver = NULL;
+  fuge_default_options(&options);
+  options.threads = -1;
+  CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
+  CHECK_MESSAGE(fuge_solver_new(op, &options, &solver, message, sizeof message), FUGE_ERR_OPTION, message,
+                "threads = -1 is negative: use 0 for all cores, 1 for one thread, or more");
+  CHECK(solver == NULL);
   fuge_operator_free(&op);
 }
 
@@ -505,6 +523,7 @@ int main(void) {
   test_new_null_pointers();
   test_null_solver();
   test_bad_options();
+  test_negative_threads();
   test_every_rule();
   test_iterative();
   test_iterative_limit();
