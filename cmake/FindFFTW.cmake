@@ -1,4 +1,4 @@
-# FFTW in double precision, with threads: targets FFTW::fftw and FFTW::threads.
+# FFTW in double precision: targets FFTW::fftw, and FFTW::threads, which has the lock of its planner too.
 # FFTW_ROOT or CMAKE_PREFIX_PATH leads to a copy in a nonstandard location. FFTW_LIBRARY may be another library with
 # FFTW's interface, such as libmkl_rt of MKL.
 find_package(PkgConfig QUIET)
@@ -16,7 +16,7 @@ mark_as_advanced(FFTW_LIBRARY FFTW_THREADS_LIBRARY)
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(FFTW REQUIRED_VARS FFTW_LIBRARY FFTW_THREADS_LIBRARY
-  REASON_FAILURE_MESSAGE "install FFTW 3.3.9 or newer with threads (Debian: libfftw3-dev)")
+  REASON_FAILURE_MESSAGE "install FFTW 3.3.6 or newer with threads (Debian: libfftw3-dev)")
 
 if(FFTW_FOUND AND NOT TARGET FFTW::threads)
   # A static copy does not name the libraries that it needs.

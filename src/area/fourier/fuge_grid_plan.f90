@@ -4,35 +4,17 @@
 !> number, and waves of odd number, for which the values are multiplied by exp(-i pi j/N) before the transform and after
 !> it by the conjugate. So one plan of N serves both.
 module fuge_grid_plan
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_loc, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_loc, c_ptr
   use fuge_constants, only: PI
   use fuge_fft, only: allocate_values, fft_plan, release_buffer
+  use fuge_kept_rows, only: free_rows, kept_rows, return_rows, take_rows, taken_rows
   use fuge_kinds, only: dp
-  use fuge_locks, only: lock, unlock, LOCK_BUFFERS
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
 
-  public :: fast_length, return_rows, stored_waves, take_rows
-
-  !> Room for the transforms of all rows, kept from one product to the next: memory that the system has cleared anew
-  !> would take as long as the transforms.
-  type, public :: kept_rows
-    type(c_ptr) :: buffer = c_null_ptr
-    integer :: stride = 0
-    !> A product in another thread uses it.
-    logical :: busy = .false.
-  end type kept_rows
-
-  !> Room that a product has taken until it returns it.
-  type, public :: taken_rows
-    private
-    type(c_ptr) :: buffer = c_null_ptr
-    !> It is the kept room, not one of the product's own. The address cannot tell: another thread may be changing that
-    !> of the kept room.
-    logical :: is_kept = .false.
-  end type taken_rows
+  public :: fast_length, return_rows, stored_waves, take_rows, taken_rows
 
   !> Transforms of the lines of a grid.
   type, public :: grid_plan
@@ -242,7 +224,7 @@ contains
     if (allocated(self%row_twist)) deallocate (self%row_twist)
     if (allocated(self%column_twist)) deallocate (self%column_twist)
     if (self%rows%owns_plans() .and. associated(self%kept)) then
-      if (c_associated(self%kept%buffer)) call release_buffer(self%kept%buffer)
+      call free_rows(self%kept)
       deallocate (self%kept)
     end if
     nullify (self%kept)
@@ -255,62 +237,5 @@ contains
 
     call clear_plan(self)
   end subroutine release_plan
-
-  !> `rows` lines of `stride` real numbers: the kept ones, or new ones if another thread uses those. `status`: 0 or
-  !> FUGE_ERR_MEMORY.
-  subroutine take_rows(kept, stride, rows, taken, work, status)
-    type(kept_rows), pointer, intent(in) :: kept
-    integer, intent(in) :: stride, rows
-    type(taken_rows), intent(out) :: taken
-    real(c_double), pointer, contiguous, intent(out) :: work(:, :)
-    integer, intent(out) :: status
-
-    call lock(LOCK_BUFFERS)
-    taken%is_kept = .not. kept%busy
-    if (taken%is_kept) kept%busy = .true.
-    call unlock(LOCK_BUFFERS)
-    if (.not. taken%is_kept) then
-      call allocate_values(stride, rows, taken%buffer, work, status)
-      return
-    end if
-    call widen(kept, stride, rows, status)
-    if (status == FUGE_DONE) then
-      taken%buffer = kept%buffer
-      call c_f_pointer(kept%buffer, work, [stride, rows])
-    else
-      call return_rows(kept, taken)
-    end if
-  end subroutine take_rows
-
-  !> Let kept room have lines of `stride` numbers. `status` as in `take_rows`.
-  subroutine widen(kept, stride, rows, status)
-    type(kept_rows), intent(inout) :: kept
-    integer, intent(in) :: stride, rows
-    integer, intent(out) :: status
-    real(c_double), pointer, contiguous :: work(:, :)
-
-    status = FUGE_DONE
-    if (kept%stride >= stride) return
-    if (kept%stride > 0) call release_buffer(kept%buffer)
-    kept%stride = 0
-    kept%buffer = c_null_ptr
-    call allocate_values(stride, rows, kept%buffer, work, status)
-    if (status == FUGE_DONE) kept%stride = stride
-  end subroutine widen
-
-  !> After `take_rows`.
-  subroutine return_rows(kept, taken)
-    type(kept_rows), pointer, intent(in) :: kept
-    type(taken_rows), intent(inout) :: taken
-
-    if (taken%is_kept) then
-      call lock(LOCK_BUFFERS)
-      kept%busy = .false.
-      call unlock(LOCK_BUFFERS)
-    else
-      call release_buffer(taken%buffer)
-    end if
-    taken = taken_rows()
-  end subroutine return_rows
 
 end module fuge_grid_plan
