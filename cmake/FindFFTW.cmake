@@ -1,4 +1,5 @@
-# FFTW in double and single precision, with threads: targets FFTW::fftw and FFTW::threads.
+# FFTW in double and single precision: targets FFTW::fftw, and FFTW::threads, which has the locks of its planners and
+# single precision too.
 # FFTW_ROOT or CMAKE_PREFIX_PATH leads to a copy in a nonstandard location. FFTW_LIBRARY may be another library with
 # FFTW's interface, such as libmkl_rt of MKL.
 find_package(PkgConfig QUIET)
@@ -7,7 +8,7 @@ if(PkgConfig_FOUND)
 endif()
 find_library(FFTW_LIBRARY NAMES fftw3 libfftw3-3 HINTS ${PC_FFTW_LIBRARY_DIRS})
 if(FFTW_LIBRARY MATCHES "mkl")
-  # One library has single precision and the threads too.
+  # One library has all of it.
   set(FFTW_THREADS_LIBRARY "${FFTW_LIBRARY}")
   set(FFTW_SINGLE_LIBRARY "${FFTW_LIBRARY}")
   set(FFTW_SINGLE_THREADS_LIBRARY "${FFTW_LIBRARY}")
@@ -21,7 +22,7 @@ mark_as_advanced(FFTW_LIBRARY FFTW_THREADS_LIBRARY FFTW_SINGLE_LIBRARY FFTW_SING
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(FFTW REQUIRED_VARS FFTW_LIBRARY FFTW_THREADS_LIBRARY
   FFTW_SINGLE_LIBRARY FFTW_SINGLE_THREADS_LIBRARY
-  REASON_FAILURE_MESSAGE "install FFTW 3.3.9 or newer in double and single precision, with threads (Debian: libfftw3-dev)")
+  REASON_FAILURE_MESSAGE "install FFTW 3.3.6 or newer in both precisions and with threads (Debian: libfftw3-dev)")
 
 if(FFTW_FOUND AND NOT TARGET FFTW::threads)
   # A static copy does not name the libraries that it needs.

@@ -4,11 +4,11 @@
 !> other work, and in a process that has been forked meanwhile, it does all parts itself. How many threads there are is
 !> no data of any procedure, because no result may depend on it: parts that are added up are the same for any number.
 module fuge_threads
-  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_funptr, c_int, c_loc, c_null_ptr, c_ptr, c_size_t
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_funloc, c_funptr, c_int, c_loc, c_null_ptr, c_ptr
   implicit none
   private
 
-  public :: begin_children_with, run_in_parts, run_in_threads, run_jobs, share, threads_here, usable_threads
+  public :: run_in_parts, run_in_threads, share, threads_here, usable_threads
 
   !> More threads than this do not start, however many are asked for: each takes memory of the process.
   integer, parameter :: MOST_THREADS = 1024
@@ -77,23 +77,6 @@ module fuge_threads
       type(c_funptr), intent(in), value :: task
       type(c_ptr), intent(in), value :: data
     end subroutine share_parts
-
-    !> Do `count` jobs at once, each in a thread of its own, as FFTW calls it: `work` with the address of each job, of
-    !> `bytes` from `first` on.
-    subroutine run_jobs(work, first, bytes, count, unused) bind(c, name='fuge_run_jobs')
-      import :: c_int, c_ptr, c_funptr, c_size_t
-      type(c_funptr), intent(in), value :: work
-      type(c_ptr), intent(in), value :: first, unused
-      integer(c_size_t), intent(in), value :: bytes
-      integer(c_int), intent(in), value :: count
-    end subroutine run_jobs
-
-    !> Let every child that this process forks begin with `action`, a procedure of C without arguments: that of the
-    !> first call, later ones change nothing. Calls must not overlap.
-    subroutine begin_children_with(action) bind(c, name='fuge_begin_children_with')
-      import :: c_funptr
-      type(c_funptr), intent(in), value :: action
-    end subroutine begin_children_with
   end interface
 
 contains

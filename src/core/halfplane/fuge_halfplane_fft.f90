@@ -6,12 +6,12 @@
 !> coefficients are pure numbers over e_star.
 module fuge_halfplane_fft
   use fuge_convolution, only: convolution_kernel
-  use fuge_fft, only: fft_plan
   use fuge_grid_operator_type, only: grid_operator
   use fuge_halfplane_line, only: check_line, circle_of, coarsened, count_coarser, halfplane_line, least_magnitude, &
     FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_spectra, only: compute_line_spectra
   use fuge_kinds, only: dp
+  use fuge_line_plan, only: line_plan
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
@@ -31,7 +31,7 @@ module fuge_halfplane_fft
     !> Subtracted from all coefficients; length per force.
     real(dp) :: datum_value = 0.0_dp
     !> Transforms of the cells, of a free surface with some more to a length that is fast.
-    type(fft_plan) :: plan
+    type(line_plan) :: plan
     !> The eigenvalues of the circulant matrix that holds A, and those of the preconditioner's, the inverse
     !> of a periodic surface.
     type(convolution_kernel) :: influence, inverse
@@ -124,7 +124,7 @@ contains
     ! Arrays of the right size are kept, because the source may be a bitwise copy of self that shares them.
     call self%influence%copy_from(source%influence, stat)
     if (stat == 0) call self%inverse%copy_from(source%inverse, stat)
-    self%plan = source%plan
+    call self%plan%copy_from(source%plan)
     self%line = source%line
     self%datum_value = source%datum_value
     call self%drop_coarser()

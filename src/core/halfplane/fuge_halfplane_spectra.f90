@@ -2,9 +2,9 @@
 module fuge_halfplane_spectra
   use fuge_constants, only: PI
   use fuge_convolution, only: convolution_kernel, transform_padded
-  use fuge_fft, only: fft_plan
-  use fuge_halfplane_line, only: halfplane_line, inverse_eigenvalue, log_of_distance, FUGE_PERIODIC
+    use fuge_halfplane_line, only: halfplane_line, inverse_eigenvalue, log_of_distance, FUGE_PERIODIC
   use fuge_kinds, only: dp
+  use fuge_line_plan, only: line_plan
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
@@ -18,7 +18,7 @@ contains
   !> coefficients, length per force. Error: FUGE_ERR_MEMORY.
   subroutine compute_line_spectra(line, plan, influence, inverse, datum, info)
     type(halfplane_line), intent(in) :: line
-    type(fft_plan), intent(in) :: plan
+    type(line_plan), intent(in) :: plan
     type(convolution_kernel), intent(inout) :: influence, inverse
     real(dp), intent(inout) :: datum
     type(fuge_info), intent(inout) :: info
@@ -52,7 +52,7 @@ contains
   !> all coefficients, would be the largest by far, and so would its rounding error.
   subroutine compute_free_spectrum(line, plan, influence, datum, status)
     type(halfplane_line), intent(in) :: line
-    type(fft_plan), intent(in) :: plan
+    type(line_plan), intent(in) :: plan
     type(convolution_kernel), intent(inout) :: influence
     real(dp), intent(inout) :: datum
     integer, intent(out) :: status

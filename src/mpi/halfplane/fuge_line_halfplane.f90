@@ -2,11 +2,11 @@
 module fuge_line_halfplane
   use, intrinsic :: iso_c_binding, only: c_loc, c_null_ptr, c_ptr
   use fuge_convolution, only: convolution_kernel
-  use fuge_fft, only: fft_plan
   use fuge_halfplane_line, only: check_line, circle_of, coarsened, count_coarser, halfplane_line, least_magnitude
   use fuge_halfplane_spectra, only: compute_line_spectra
   use fuge_kinds, only: dp
   use fuge_line_cells, only: active_ranks, first_cells
+  use fuge_line_plan, only: line_plan
   use fuge_line_kernel, only: compute_kernels, line_kernel
   use fuge_line_transform, only: line_transform
   use fuge_memory, only: check_memory
@@ -30,7 +30,7 @@ module fuge_line_halfplane
 
   !> What one rank needs for products, if it has all cells.
   type :: whole_products
-    type(fft_plan) :: plan
+    type(line_plan) :: plan
     type(convolution_kernel) :: influence, inverse
   end type whole_products
 

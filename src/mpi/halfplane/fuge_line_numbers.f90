@@ -1,48 +1,13 @@
-!> Lines of complex numbers, real and imaginary parts in turn: roots of one, products, and copies from and to tables.
+!> Lines of complex numbers, real and imaginary parts in turn: products, and copies from and to tables.
 module fuge_line_numbers
   use, intrinsic :: iso_c_binding, only: c_double
-  use fuge_constants, only: PI
   use fuge_kinds, only: dp
   implicit none
   private
 
-  public :: gather_lines, multiply_exchanging, multiply_line, quarter_root, root_of_one, scale_line, scatter_lines
+  public :: gather_lines, multiply_exchanging, multiply_line, scale_line, scatter_lines
 
 contains
-
-  !> Real and imaginary parts of exp(-2 pi i k/n), 0 <= k < n, from the angle to the nearest axis: a large angle is
-  !> rounded by more.
-  pure function root_of_one(k, n) result(root)
-    integer, intent(in) :: k, n
-    real(dp) :: root(2)
-    real(dp) :: angle, quarters
-    integer :: axis
-
-    quarters = 4.0_dp*(real(k, dp)/real(n, dp))
-    axis = int(quarters + 0.5_dp)
-    angle = 0.5_dp*PI*((4.0_dp*real(k, dp) - real(axis, dp)*real(n, dp))/real(n, dp))
-    select case (modulo(axis, 4))
-    case (0)
-      root = [cos(angle), -sin(angle)]
-    case (1)
-      root = [-sin(angle), -cos(angle)]
-    case (2)
-      root = [-cos(angle), sin(angle)]
-    case default
-      root = [sin(angle), cos(angle)]
-    end select
-  end function root_of_one
-
-  !> Real and imaginary parts of exp(-i pi k/(2 n)), 0 <= k <= n.
-  pure function quarter_root(k, n) result(root)
-    integer, intent(in) :: k, n
-    real(dp) :: root(2)
-    real(dp) :: angle
-
-    angle = 0.5_dp*PI*(real(min(k, n - k), dp)/real(n, dp))
-    root = [cos(angle), -sin(angle)]
-    if (k > n - k) root = [sin(angle), -cos(angle)]
-  end function quarter_root
 
   !> Multiply complex numbers, `z` (real and imaginary parts), by others, `factors` (2, :).
   pure subroutine multiply_line(factors, z)

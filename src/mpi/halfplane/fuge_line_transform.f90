@@ -14,10 +14,10 @@ module fuge_line_transform
   use fuge_fft, only: allocate_values, fft_plan, release_buffer
   use fuge_kinds, only: dp
   use fuge_line_cells, only: block_begins, rows_of_circle, rows_of_ranks
-  use fuge_line_numbers, only: gather_lines, multiply_exchanging, multiply_line, quarter_root, root_of_one, &
-    scale_line, scatter_lines
+  use fuge_line_numbers, only: gather_lines, multiply_exchanging, multiply_line, scale_line, scatter_lines
   use fuge_rank_communicator, only: rank_communicator
   use fuge_status, only: fuge_info, require_memory
+  use fuge_unit_roots, only: quarter_root, root_of_one
   implicit none
   private
 

@@ -1,6 +1,6 @@
 !> What `fuge_fft` calls where the library is built without FFTW (FUGE_WITH_FFTW=OFF): there is no memory, and no plan.
 !>
-!> It takes the place of src/core/numerics/fuge_fftw.f90, and lies outside of src/core/ because fpm compiles all that is
+!> It takes the place of src/core/numerics/fourier/fuge_fftw.f90, and lies outside of src/core/ because fpm compiles all that is
 !> there. The names, arguments and constants are those of that module. Nothing is executed: `set` of an `fft_plan` asks
 !> HAS_FFTW and refuses.
 module fuge_fftw
@@ -8,9 +8,9 @@ module fuge_fftw
   implicit none
   private
 
-  public :: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, fftw_init_threads, &
-    fftw_malloc, fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, fftw_plan_r2c, &
-    fftw_plan_with_nthreads, fftwf_destroy_plan, fftwf_execute_c2c, fftwf_plan_c2c
+  public :: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, fftw_malloc, &
+    fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, fftw_plan_r2c, fftwf_destroy_plan, &
+    fftwf_execute_c2c, fftwf_plan_c2c
 
   !> This library cannot transform.
   logical, parameter, public :: HAS_FFTW = .false.
@@ -33,16 +33,6 @@ contains
   pure subroutine fftw_free(memory)
     type(c_ptr), intent(in), value :: memory
   end subroutine fftw_free
-
-  pure function fftw_init_threads() result(done)
-    integer(c_int) :: done
-
-    done = 0
-  end function fftw_init_threads
-
-  pure subroutine fftw_plan_with_nthreads(threads)
-    integer(c_int), intent(in), value :: threads
-  end subroutine fftw_plan_with_nthreads
 
   pure function fftw_plan_c2c(n, in, out, sign, flags) result(plan)
     integer(c_int), intent(in), value :: n, sign, flags

@@ -2,32 +2,26 @@
 !>
 !> An even number of values is transformed as half as many complex numbers, in place: value 2j + 1 is the
 !> imaginary part that belongs to value 2j, and the caller separates the two (fuge_convolution). FFTW plans
-!> that in a small fraction of the time that it takes for real values. Grids (fuge_grid_convolution) transform many
-!> short lines, each from one buffer to another, which is faster where both stay in cache. Where a grid is transformed
-!> as a whole (fuge_grid_waves), its values are not packed.
+!> that in a small fraction of the time that it takes for real values. Grids (fuge_grid_convolution) and long lines
+!> (fuge_split_plan) are made of short lines, each transformed from one buffer to another, which is faster where both
+!> stay in cache. Where a grid is transformed as a whole (fuge_grid_waves), its values are not packed.
 !>
-!> The whole process shares one planner of FFTW. FFTW's own lock, which the first plan switches
-!> on, covers neither its initialisation nor its number of threads, so this module has a lock for
-!> them. A host program that plans transforms in another thread at the same time must call
-!> fftw_make_planner_thread_safe before it starts threads.
-!>
-!> FFTW keeps its threads for the next transform. A process that is forked has none of them and would wait for them for
-!> ever, so there `fuge_threads` starts threads for each transform.
+!> The whole process shares one planner of FFTW, under a lock of this module: a process that is forked waits for it. The
+!> first plan also switches on FFTW's own lock, for a host program that plans transforms in another thread at the same
+!> time; it must call fftw_make_planner_thread_safe before it starts threads. Each transform is done by one thread.
 module fuge_fft
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_float, c_funloc, c_int, c_loc, c_null_ptr, &
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_float, c_int, c_loc, c_null_ptr, &
     c_ptr, c_size_t
   use fuge_fftw, only: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, &
-    fftw_init_threads, fftw_malloc, fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, &
-    fftw_plan_r2c, fftw_plan_with_nthreads, fftwf_destroy_plan, fftwf_execute_c2c, fftwf_plan_c2c, FFTW_ESTIMATE, &
-    FFTW_FORWARD, FFTW_MEASURE, FFTW_NO_BUFFERING, HAS_FFTW
-  use fuge_fftw_planner, only: fftw_make_planner_thread_safe, fftw_planner_nthreads, fftw_threads_set_callback, &
-    fftwf_make_planner_thread_safe
+    fftw_malloc, fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, fftw_plan_r2c, &
+    fftwf_destroy_plan, fftwf_execute_c2c, fftwf_plan_c2c, FFTW_ESTIMATE, FFTW_FORWARD, &
+    FFTW_MEASURE, FFTW_NO_BUFFERING, HAS_FFTW
+  use fuge_fftw_planner, only: fftw_make_planner_thread_safe, fftwf_make_planner_thread_safe
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_PLANNER
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_OPTION, &
-    FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
-  use fuge_threads, only: begin_children_with, run_jobs
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE, &
+    FUGE_ERR_UNSUPPORTED
   implicit none
   private
 
@@ -44,8 +38,6 @@ module fuge_fft
   type, public :: fft_plan
     !> Number of values; 0 before `set`.
     integer :: length = 0
-    !> Number of threads of one transform.
-    integer :: threads = 1
     !> FFTW has chosen the plans by measurement.
     logical :: measured = .false.
     !> Transforms of packed values from one buffer to another, by `transform_to`, instead of in place.
@@ -113,22 +105,21 @@ contains
 
   !> Plan transforms of `length` >= 1 values.
   !>
-  !> `threads` (default 1) share each transform; with `measured` (default .false.) FFTW measures which algorithm is
-  !> fastest, which takes seconds for long transforms. `separate` (default .false.) plans for `transform_to`; then
-  !> `length` must be even. With `lines` >= 1 the values are a grid of as many lines, transformed in both directions;
-  !> then `separate` is not allowed. `single` (default .false.) needs `separate`.
-  !> Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_OPTION, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a library
-  !> that was built without FFTW.
-  subroutine set(self, length, info, threads, measured, separate, lines, single)
+  !> With `measured` (default .false.) FFTW measures which algorithm is fastest, which takes seconds for long
+  !> transforms. `separate` (default .false.) plans for `transform_to`; then `length` must be even. With `lines` >= 1 the
+  !> values are a grid of as many lines, transformed in both directions; then `separate` is not allowed.
+  !> `single` (default .false.) needs `separate`.
+  !> Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a library that was built
+  !> without FFTW.
+  subroutine set(self, length, info, measured, separate, lines, single)
     class(fft_plan), intent(inout) :: self
     integer, intent(in) :: length
     type(fuge_info), intent(inout) :: info
-    integer, intent(in), optional :: threads, lines
     logical, intent(in), optional :: measured, separate, single
+    integer, intent(in), optional :: lines
     type(fft_plan) :: new_plan
 
     new_plan%length = length
-    if (present(threads)) new_plan%threads = threads
     if (present(measured)) new_plan%measured = measured
     if (present(separate)) new_plan%separate = separate
     if (present(lines)) new_plan%lines = lines
@@ -139,8 +130,6 @@ contains
       call report(info, FUGE_ERR_SIZE, 'length = '//text(length)//': pairs of values need an even length')
     else if (new_plan%lines < 0 .or. (new_plan%lines > 0 .and. new_plan%separate)) then
       call report(info, FUGE_ERR_SIZE, 'lines = '//text(new_plan%lines)//': use 1 or more, in place')
-    else if (new_plan%threads < 1) then
-      call report(info, FUGE_ERR_OPTION, 'threads = '//text(new_plan%threads)//': use 1 or more')
     else if (.not. HAS_FFTW) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'this library was built without FFTW (FUGE_WITH_FFTW=OFF), which ' &
                   //'operators by FFT and stresses on grids need: build it with FFTW, or use a matrix, or stresses ' &
@@ -151,20 +140,15 @@ contains
     if (.not. info%failed()) call self%move_from(new_plan)
   end subroutine set
 
-  !> Create the plans of checked options. Errors as in `set`.
+  !> Create the plans of checked options. Error: FUGE_ERR_MEMORY.
   subroutine make_plans(plan, info)
     type(fft_plan), intent(inout) :: plan
     type(fuge_info), intent(inout) :: info
-    logical :: initialised
 
     call lock(LOCK_PLANNER)
-    initialised = fftw_init_threads() /= 0
-    if (initialised) call begin_children_with(c_funloc(replace_threads))
-    if (initialised) call plan_both_directions(plan)
+    call plan_both_directions(plan)
     call unlock(LOCK_PLANNER)
-    if (.not. initialised) then
-      call report(info, FUGE_ERR_OPTION, 'threads = '//text(plan%threads)//': FFTW cannot start threads here')
-    else if (c_associated(plan%forward) .and. (c_associated(plan%backward) .or. plan%is_packed())) then
+    if (c_associated(plan%forward) .and. (c_associated(plan%backward) .or. plan%is_packed())) then
       call plan%own_plans()
     else
       call destroy(plan%single, plan%forward, plan%backward)
@@ -173,22 +157,14 @@ contains
     end if
   end subroutine make_plans
 
-  !> Let this process, which has just been forked, start threads of its own for each transform.
-  subroutine replace_threads() bind(c, name='')
-    call fftw_threads_set_callback(c_funloc(run_jobs), c_null_ptr)
-  end subroutine replace_threads
-
   !> Create both plans while the planner is locked; a plan is null without memory.
   subroutine plan_both_directions(plan)
     type(fft_plan), intent(inout) :: plan
     type(c_ptr) :: buffer, other
-    integer(c_int) :: before, flags
+    integer(c_int) :: flags
 
     call fftw_make_planner_thread_safe()
     call fftwf_make_planner_thread_safe()
-    ! The host program may have set another number of threads.
-    before = fftw_planner_nthreads()
-    if (before /= plan%threads) call fftw_plan_with_nthreads(int(plan%threads, c_int))
     ! FFTW aborts when there is no memory for its own tables, so test first that twice as much again
     ! can be allocated. It is never touched and costs no time.
     buffer = fftw_malloc(3*buffer_bytes(plan))
@@ -216,7 +192,6 @@ contains
       end if
       call fftw_free(buffer)
     end if
-    if (before /= plan%threads) call fftw_plan_with_nthreads(before)
   end subroutine plan_both_directions
 
   !> Are the values, an even number, transformed as half as many complex numbers?
@@ -290,7 +265,6 @@ contains
     class(fft_plan), intent(inout) :: source
 
     call self%free()
-    self%threads = source%threads
     self%measured = source%measured
     self%separate = source%separate
     self%lines = source%lines
@@ -312,8 +286,8 @@ contains
     type(fft_plan) :: new_plan
     type(fuge_info) :: info
 
-    if (source%length > 0) call new_plan%set(source%length, info, source%threads, source%measured, source%separate, &
-                                             source%lines, source%single)
+    if (source%length > 0) call new_plan%set(source%length, info, source%measured, source%separate, source%lines, &
+                                             source%single)
     call self%move_from(new_plan)
   end subroutine copy
 

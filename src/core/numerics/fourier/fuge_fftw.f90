@@ -7,9 +7,9 @@ module fuge_fftw
   implicit none
   private
 
-  public :: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, fftw_init_threads, &
-    fftw_malloc, fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, fftw_plan_r2c, &
-    fftw_plan_with_nthreads, fftwf_destroy_plan, fftwf_execute_c2c, fftwf_plan_c2c
+  public :: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, fftw_malloc, &
+    fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, fftw_plan_r2c, fftwf_destroy_plan, &
+    fftwf_execute_c2c, fftwf_plan_c2c
 
   !> This library can transform.
   logical, parameter, public :: HAS_FFTW = .true.
@@ -31,17 +31,6 @@ module fuge_fftw
       import :: c_ptr
       type(c_ptr), intent(in), value :: memory
     end subroutine fftw_free
-
-    !> Result 0: threads are not available.
-    function fftw_init_threads() bind(c, name='fftw_init_threads') result(done)
-      import :: c_int
-      integer(c_int) :: done
-    end function fftw_init_threads
-
-    subroutine fftw_plan_with_nthreads(threads) bind(c, name='fftw_plan_with_nthreads')
-      import :: c_int
-      integer(c_int), intent(in), value :: threads
-    end subroutine fftw_plan_with_nthreads
 
     function fftw_plan_c2c(n, in, out, sign, flags) bind(c, name='fftw_plan_dft_1d') result(plan)
       import :: c_int, c_ptr

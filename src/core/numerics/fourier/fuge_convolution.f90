@@ -1,21 +1,24 @@
 !> Products with symmetric circulant and Toeplitz matrices by Fourier transforms.
 !>
-!> A cyclic convolution of N values multiplies their transform by the spectrum of an even kernel, which is
-!> real. N even values are transformed as N/2 complex numbers z_j = x_2j + i x_(2j+1). With
-!> theta = 2 pi k/N and the spectrum s, its transform Z becomes
-!>
-!>     Z'_k = (a - b sin(theta)) Z_k + i b cos(theta) conj(Z_(N/2-k)),   a, b = (s_k +- s_(N/2-k))/2.
+!> A cyclic convolution of N values multiplies their transform by the spectrum of an even kernel, which is real. N even
+!> values are transformed as N/2 complex numbers, whose transforms are multiplied by the factors of fuge_pair_factors.
 !>
 !> A convolution on a circle of 2N cells, of N values followed by N zeros, of which the first N results are
 !> needed, is half the sum of two on N: a cyclic one with the even numbers of the spectrum, and one with the
 !> odd ones, where whatever goes once round the circle changes its sign. The second needs the numbers
 !> 1, 5, 9, .. only, the transform of the N/2 complex numbers (x_j - i x_(j+N/2)) exp(-i pi j/N). Two
 !> transforms of N values take less time than one of 2N.
+!>
+!> Long circles are transformed as grids, which threads share (fuge_split_convolution).
 module fuge_convolution
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr
   use fuge_constants, only: PI
-  use fuge_fft, only: fft_plan, release_buffer
+  use fuge_circle_split, only: split_circle
+  use fuge_fft, only: allocate_values, fft_plan, release_buffer
   use fuge_kinds, only: dp
+  use fuge_line_plan, only: line_plan
+  use fuge_pair_factors, only: pair_factors, soften
+  use fuge_split_convolution, only: convolve_split, order_factors, order_odd_factors
   use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   implicit none
   private
@@ -26,10 +29,11 @@ module fuge_convolution
   type, public :: convolution_kernel
     !> Number of values N of the plan; 0 before it is set.
     integer :: length = 0
-    !> For even N the factors a -+ b sin and b cos of the numbers k and N/2-k, (3, 0:N/4); for odd N the
-    !> spectrum, (1, 0:N/2).
+    !> For even N the factors of the numbers k and N/2-k (fuge_pair_factors), (3, 0:N/4), or in the order of
+    !> fuge_split_convolution; for odd N the spectrum, (1, 0:N/2).
     real(dp), allocatable, private :: factors(:, :)
-    !> On a circle of 2N cells: the numbers 1, 5, .. of the spectrum, and cos and sin of pi j/N, (2, N/2).
+    !> On a circle of 2N cells: the numbers 1, 5, .. of the spectrum, and cos and sin of pi j/N, (2, N/2), unless it is
+    !> split.
     real(dp), allocatable, private :: odd_factors(:), twist(:, :)
   contains
     procedure :: set_cyclic
@@ -50,36 +54,34 @@ contains
     integer, intent(in) :: length
     real(dp), intent(in) :: spectrum(0:)
     integer, intent(out) :: status
-    real(dp) :: half_difference, mean, theta
-    integer :: half, k
+    integer :: columns, k, rows
 
     self%length = 0
     call clear(self)
     status = FUGE_ERR_SIZE
     if (length < 1 .or. size(spectrum) /= length/2 + 1) return
-    half = length/2
-    if (mod(length, 2) == 0) then
-      allocate (self%factors(3, 0:half/2), stat=status)
+    call split_circle(length, rows, columns)
+    if (rows > 0) then
+      allocate (self%factors(3, 0:columns*(rows/2 + 1) - 1), stat=status)
+    else if (mod(length, 2) == 0) then
+      allocate (self%factors(3, 0:length/4), stat=status)
     else
-      allocate (self%factors(1, 0:half), stat=status)
+      allocate (self%factors(1, 0:length/2), stat=status)
     end if
     if (status /= 0) then
       status = FUGE_ERR_MEMORY
       return
     end if
     self%length = length
-    if (mod(length, 2) == 1) then
+    if (rows > 0) then
+      call order_factors(rows, columns, spectrum, self%factors)
+    else if (mod(length, 2) == 0) then
+      do k = 0, length/4
+        self%factors(:, k) = pair_factors(k, length, spectrum)
+      end do
+    else
       self%factors(1, :) = spectrum
-      return
     end if
-    do k = 0, half/2
-      ! Twice, because it is divided by the number of real values, not of complex ones.
-      mean = spectrum(k) + spectrum(half - k)
-      half_difference = spectrum(k) - spectrum(half - k)
-      theta = 2.0_dp*PI*(real(k, dp)/real(length, dp))
-      self%factors(:, k) = [mean - half_difference*sin(theta), mean + half_difference*sin(theta), &
-                            half_difference*cos(theta)]
-    end do
   end subroutine set_cyclic
 
   !> Set the spectrum of a convolution on a circle of 2*length cells, `length` even.
@@ -91,20 +93,26 @@ contains
     integer, intent(in) :: length
     real(dp), intent(in) :: even(:), odd(:)
     integer, intent(out) :: status
+    integer :: columns, rows
 
     call self%set_cyclic(length, even, status)
     if (status /= FUGE_DONE) return
     status = FUGE_ERR_SIZE
     if (mod(length, 2) /= 0 .or. size(odd) /= length/2) self%length = 0
     if (self%length == 0) return
-    allocate (self%odd_factors(length/2), self%twist(2, length/2), stat=status)
+    call split_circle(length, rows, columns)
+    allocate (self%odd_factors(length/2), self%twist(2, merge(0, length/2, rows > 0)), stat=status)
     if (status /= 0) then
       status = FUGE_ERR_MEMORY
       self%length = 0
       return
     end if
-    self%odd_factors = 2.0_dp*odd
-    call compute_twist(self%twist)
+    if (rows > 0) then
+      call order_odd_factors(rows, columns, 2.0_dp*odd, self%odd_factors)
+    else
+      self%odd_factors = 2.0_dp*odd
+      call compute_twist(self%twist)
+    end if
   end subroutine set_padded
 
   !> Deallocate all arrays.
@@ -152,7 +160,7 @@ contains
         allocate (self%factors(size(source%factors, 1), 0:ubound(source%factors, 2)), stat=status)
       end if
       if (allocated(source%odd_factors) .and. status == 0) then
-        allocate (self%odd_factors(size(source%odd_factors)), self%twist(2, size(source%odd_factors)), stat=status)
+        allocate (self%odd_factors(size(source%odd_factors)), self%twist(2, size(source%twist, 2)), stat=status)
       end if
       if (status /= 0) return
     end if
@@ -192,7 +200,7 @@ contains
   !> `kernel` (0:length/2): on entry the values at these distances, on return their spectrum. `status`: 0,
   !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
   subroutine transform_even(plan, kernel, status)
-    type(fft_plan), intent(in) :: plan
+    type(line_plan), intent(in) :: plan
     real(dp), intent(inout) :: kernel(0:)
     integer, intent(out) :: status
     real(c_double), pointer, contiguous :: work(:)
@@ -203,15 +211,19 @@ contains
     half = plan%length/2
     status = merge(FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, plan%length > 0)
     if (plan%length < 1 .or. size(kernel) /= half + 1) return
-    call plan%allocate_buffer(buffer, work, status)
+    call allocate_line(plan%length, buffer, work, status)
     if (status /= FUGE_DONE) return
     work(:half + 1) = kernel
     do k = half + 1, plan%length - 1
       work(k + 1) = kernel(plan%length - k)
     end do
-    call plan%transform(buffer)
+    call plan%transform(work, status)
+    if (status /= FUGE_DONE) then
+      call release_buffer(buffer)
+      return
+    end if
     do k = 0, half
-      if (.not. plan%is_packed()) then
+      if (mod(plan%length, 2) == 1) then
         kernel(k) = work(2*k + 1)
         cycle
       end if
@@ -233,7 +245,7 @@ contains
   !> `kernel` (0:N): the values at these distances, undefined on return; `even` (0:N/2), `odd` (N/2). `status`
   !> as for `transform_even`.
   subroutine transform_padded(plan, kernel, even, odd, status)
-    type(fft_plan), intent(in) :: plan
+    type(line_plan), intent(in) :: plan
     real(dp), intent(inout) :: kernel(0:)
     real(dp), intent(out) :: even(0:), odd(:)
     integer, intent(out) :: status
@@ -244,7 +256,7 @@ contains
 
     n = plan%length
     status = FUGE_ERR_SIZE
-    if (size(kernel) /= n + 1 .or. size(even) /= n/2 + 1 .or. size(odd) /= n/2 .or. .not. plan%is_packed()) return
+    if (size(kernel) /= n + 1 .or. size(even) /= n/2 + 1 .or. size(odd) /= n/2 .or. mod(n, 2) == 1) return
     do j = 0, n/2
       even(j) = kernel(j) + kernel(n - j)
     end do
@@ -253,7 +265,7 @@ contains
     even = 0.5_dp*even
     allocate (twist(2, n/2), stat=status)
     if (status == 0) then
-      call plan%allocate_buffer(buffer, work, status)
+      call allocate_line(n, buffer, work, status)
     else
       status = FUGE_ERR_MEMORY
     end if
@@ -267,12 +279,25 @@ contains
       kernel(j) = -kernel(n - j)
     end do
     call twist_values(twist, kernel(:n - 1), work)
-    call plan%transform(buffer)
+    call plan%transform(work, status)
     do j = 1, n/2
       odd(j) = work(2*j - 1)/(2.0_dp*real(n, dp))
     end do
     call release_buffer(buffer)
   end subroutine transform_padded
+
+  !> Room for the transform of `length` values, to be released if `status` is 0, not FUGE_ERR_MEMORY.
+  subroutine allocate_line(length, buffer, values, status)
+    integer, intent(in) :: length
+    type(c_ptr), intent(out) :: buffer
+    real(c_double), pointer, contiguous, intent(out) :: values(:)
+    integer, intent(out) :: status
+    real(c_double), pointer, contiguous :: columns(:, :)
+
+    call allocate_values(2*(length/2 + 1), 1, buffer, columns, status)
+    nullify (values)
+    if (status == FUGE_DONE) values => columns(:, 1)
+  end subroutine allocate_line
 
   !> y = the first values of the convolution of x with the kernel.
   !>
@@ -282,49 +307,35 @@ contains
   !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
   subroutine convolve(self, plan, x, y, status, softening)
     class(convolution_kernel), intent(in) :: self
-    type(fft_plan), intent(in) :: plan
+    type(line_plan), intent(in) :: plan
     real(dp), intent(in) :: x(:)
     real(dp), intent(inout) :: y(:)
     integer, intent(out) :: status
     real(dp), intent(in), optional :: softening
     type(convolution_kernel) :: softer
+    real(dp) :: added
 
     status = merge(FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, self%length == 0 .or. plan%length == 0)
     if (self%length /= plan%length .or. self%length == 0 .or. max(size(x), size(y)) > self%length) return
-    if (present(softening)) then
-      if (allocated(self%odd_factors)) return
+    if (present(softening) .and. allocated(self%odd_factors)) return
+    added = 0.0_dp
+    if (present(softening)) added = softening*real(self%length, dp)
+    if (plan%is_split()) then
+      call convolve_split(plan%grid, self%factors, self%odd_factors, added, size(x), x, size(y), y, status)
+    else if (added > 0.0_dp) then
       call softer%copy_from(self, status)
       if (status /= 0) status = FUGE_ERR_MEMORY
       if (status /= FUGE_DONE) return
-      call soften(softening*real(self%length, dp), softer%factors)
-      call convolve_values(softer, plan, size(x), x, size(y), y, status)
+      if (mod(self%length, 2) == 0) then
+        call soften(added, softer%factors)
+      else
+        softer%factors = softer%factors/(1.0_dp + added*softer%factors)
+      end if
+      call convolve_values(softer, plan%whole, size(x), x, size(y), y, status)
     else
-      call convolve_values(self, plan, size(x), x, size(y), y, status)
+      call convolve_values(self, plan%whole, size(x), x, size(y), y, status)
     end if
   end subroutine convolve
-
-  !> The factors of the spectrum s/(1 + softening s) from those of s, which are those of `set_cyclic`.
-  pure subroutine soften(softening, factors)
-    real(dp), intent(in) :: softening
-    real(dp), intent(inout), contiguous :: factors(:, 0:)
-    real(dp) :: difference, mean, product, reduction
-    integer :: k
-
-    if (size(factors, 1) == 1) then
-      factors = factors/(1.0_dp + softening*factors)
-      return
-    end if
-    do k = 0, ubound(factors, 2)
-      ! Sum, square of the difference and product of the two numbers whose factors these are.
-      mean = 0.5_dp*(factors(1, k) + factors(2, k))
-      difference = 0.5_dp*(factors(2, k) - factors(1, k))
-      product = 0.25_dp*(mean**2 - (difference**2 + factors(3, k)**2))
-      reduction = 1.0_dp/(1.0_dp + softening*(mean + softening*product))
-      mean = reduction*(mean + 2.0_dp*softening*product)
-      difference = reduction*difference
-      factors(:, k) = [mean - difference, mean + difference, reduction*factors(3, k)]
-    end do
-  end subroutine soften
 
   !> As `convolve`, checked. The arrays have an explicit shape, because gfortran copies arrays to pass them as
   !> contiguous ones.
