@@ -58,7 +58,8 @@ static int new_area(fuge_operator **op) {
 
 static int differs_with(fuge_progress progress, const fuge_operator *op, int n, const double *expected) {
   double *force = malloc((size_t)n * sizeof *force);
-  int bad = force == NULL || solve_with(progress, op, n, force) || memcmp(force, expected, (size_t)n * sizeof *force) != 0;
+  int bad = force == NULL || solve_with(progress, op, n, force) ||
+            memcmp(force, expected, (size_t)n * sizeof *force) != 0;
   free(force);
   return bad;
 }

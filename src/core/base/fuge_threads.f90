@@ -81,8 +81,8 @@ module fuge_threads
 
 contains
 
-  !> Let up to `threads` >= 1 threads, and no more than MOST_THREADS, share the work of this one. End the team in the same
-  !> thread, those begun later first.
+  !> Let up to `threads` >= 1 threads, and no more than MOST_THREADS, share the work of this one. End the team in the
+  !> same thread, those begun later first.
   subroutine begin(self, threads)
     class(thread_team), intent(inout) :: self
     integer, intent(in) :: threads

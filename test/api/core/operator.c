@@ -206,7 +206,7 @@ static void test_halfplane_solves(void) {
 
 enum { LONG = 131072 };
 
-/* Forces and gaps, one after the other, and the derivative of the forces, of a wavy cylinder on a line of LONG cells. */
+/* Forces, gaps and the derivative of the forces, one after the other, of a wavy cylinder on a line of LONG cells. */
 static void solve_long_line(const fuge_operator *op, int threads, double *result) {
   fuge_options options;
   fuge_solver *solver = NULL;
