@@ -18,6 +18,7 @@ module fuge_split_convolution
   use fuge_split_plan, only: COLUMN_BLOCK, get_columns, line_stride, multiply_row, put_columns, split_plan
   use fuge_status, only: FUGE_DONE
   use fuge_threads, only: run_in_threads, share, threads_here
+  use fuge_unit_roots, only: root_of_one
   implicit none
   private
 
@@ -27,6 +28,9 @@ module fuge_split_convolution
   integer, parameter :: WIDTH = COLUMN_BLOCK, HALF = WIDTH/2
   !> Lines of a thread: the complex columns of both circles, and one in which the first is transformed.
   integer, parameter :: LINES_OF_THREAD = 2*WIDTH + 1
+
+  !> Rows whose factors are put in order together: neighbours in memory of waves.
+  integer, parameter :: ROWS_TOGETHER = 8
 
   !> One product, for the threads that share it.
   type :: product_job
@@ -50,11 +54,24 @@ contains
     integer, intent(in) :: rows, columns
     real(dp), intent(in) :: spectrum(0:)
     real(dp), intent(out) :: factors(:, :)
-    integer :: p, q
+    real(dp) :: column_root(2, 0:columns - 1), row_root(2, 0:rows/2), w(2)
+    integer :: first, k, p, q
 
     do p = 0, rows/2
+      row_root(:, p) = root_of_one(p, 2*rows*columns)
+    end do
+    do q = 0, columns - 1
+      column_root(:, q) = root_of_one(q, 2*columns)
+    end do
+    do first = 0, rows/2, ROWS_TOGETHER
       do q = 0, columns - 1
-        factors(:, columns*p + q + 1) = pair_factors(p + rows*q, 2*rows*columns, spectrum)
+        do p = first, min(first + ROWS_TOGETHER - 1, rows/2)
+          associate (a => row_root(:, p), b => column_root(:, q))
+            w = [a(1)*b(1) - a(2)*b(2), a(1)*b(2) + a(2)*b(1)]
+          end associate
+          k = p + rows*q
+          factors(:, columns*p + q + 1) = pair_factors(spectrum(k), spectrum(rows*columns - k), w)
+        end do
       end do
     end do
   end subroutine order_factors
@@ -64,10 +81,14 @@ contains
     integer, intent(in) :: rows, columns
     real(dp), intent(in) :: factors(:)
     real(dp), intent(out) :: ordered(:)
-    integer :: p
+    integer :: first, p, q
 
-    do p = 0, rows - 1
-      ordered(columns*p + 1:columns*(p + 1)) = factors(p + 1::rows)
+    do first = 0, rows - 1, ROWS_TOGETHER
+      do q = 0, columns - 1
+        do p = first, min(first + ROWS_TOGETHER - 1, rows - 1)
+          ordered(columns*p + q + 1) = factors(p + rows*q + 1)
+        end do
+      end do
     end do
   end subroutine order_odd_factors
 
