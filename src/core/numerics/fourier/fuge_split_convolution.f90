@@ -24,7 +24,7 @@ module fuge_split_convolution
 
   public :: convolve_split, order_factors, order_odd_factors
 
-  !> Columns of values that are transformed together.
+  !> Columns of values that are transformed together, and half of them.
   integer, parameter :: WIDTH = COLUMN_BLOCK, HALF = WIDTH/2
   !> Lines of a thread: the complex columns of both circles, and one in which the first is transformed.
   integer, parameter :: LINES_OF_THREAD = 2*WIDTH + 1
@@ -95,9 +95,9 @@ contains
   !> y = the first values of the convolution of x, continued by zeros, with the kernel of the `factors` of pairs and,
   !> on a circle that is twice as long, the `odd_factors` of values half a circle apart.
   !>
-  !> With `softening` > 0 the factors are softened. Several threads may use the plan at once. `status`: 0, or with y
-  !> unchanged FUGE_ERR_MEMORY. The arguments are nine, because arrays have an explicit shape: gfortran copies arrays
-  !> to pass them as contiguous ones.
+  !> With `softening` > 0 each number s of the spectrum of pairs becomes s/(1 + softening s). Several threads may use
+  !> the plan at once. `status`: 0, or with y unchanged FUGE_ERR_MEMORY. The arguments are nine, because x and y have an
+  !> explicit shape: gfortran copies arrays to pass them as contiguous ones.
   subroutine convolve_split(plan, factors, odd_factors, softening, values, x, results, y, status)
     type(split_plan), intent(in), target :: plan
     real(dp), intent(in), contiguous, target :: factors(:, :)
@@ -111,7 +111,8 @@ contains
     type(taken_rows) :: taken
     integer :: rows, threads
 
-    threads = threads_here()
+    ! More threads would have no columns.
+    threads = min(threads_here(), blocks_of_columns(plan))
     job%padded = present(odd_factors)
     job%softening = softening
     rows = plan%rows*merge(2, 1, job%padded) + LINES_OF_THREAD*threads
@@ -150,7 +151,7 @@ contains
 
     call c_f_pointer(data, job)
     call find_lines(job, int(part), lines)
-    call share((job%plan%columns - 1)/WIDTH + 1, int(part), int(parts), from, to)
+    call share(blocks_of_columns(job%plan), int(part), int(parts), from, to)
     do block = from, to
       call find_columns(job%plan, block, first, done)
       call gather_values(job%plan, job%x, first, job%padded, lines(:, 2:))
@@ -158,6 +159,14 @@ contains
       call put_lines(job, first, done, lines)
     end do
   end subroutine transform_columns
+
+  !> How many times WIDTH columns are transformed together.
+  pure function blocks_of_columns(plan) result(blocks)
+    type(split_plan), intent(in) :: plan
+    integer :: blocks
+
+    blocks = (plan%columns - 1)/WIDTH + 1
+  end function blocks_of_columns
 
   !> The `first` column of a block, from 0. `done` columns, an even number, of the last block belong to the one before.
   pure subroutine find_columns(plan, block, first, done)
@@ -396,7 +405,7 @@ contains
 
     call c_f_pointer(data, job)
     call find_lines(job, int(part), lines)
-    call share((job%plan%columns - 1)/WIDTH + 1, int(part), int(parts), from, to)
+    call share(blocks_of_columns(job%plan), int(part), int(parts), from, to)
     do block = from, to
       call find_columns(job%plan, block, first, done)
       call get_lines(job, first, lines(:, 2:))
