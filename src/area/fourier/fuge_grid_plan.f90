@@ -65,7 +65,7 @@ contains
 
   !> Plan transforms of `cells` (2) values on circles of `length` (2) >= `cells`, or twice that.
   !>
-  !> `measured` as in fuge_fft. Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_OPTION, FUGE_ERR_MEMORY.
+  !> `measured` as in fuge_fft. Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
   subroutine set_plan(self, cells, length, info, measured)
     class(grid_plan), intent(inout) :: self
     integer, intent(in) :: cells(2), length(2)

@@ -88,7 +88,7 @@ contains
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
 
-  !> Plan and compute what belongs to the cells of `operator`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> Plan and compute what belongs to the cells of `operator`. Errors: FUGE_ERR_MEMORY.
   subroutine prepare(operator, info)
     type(fuge_halfspace_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
@@ -102,7 +102,7 @@ contains
     if (.not. info%failed()) call operator%make_room(count_coarser(operator%surface))
   end subroutine prepare
 
-  !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> Plan the transforms. Errors: FUGE_ERR_MEMORY.
   subroutine plan_transforms(operator, info)
     type(fuge_halfspace_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info

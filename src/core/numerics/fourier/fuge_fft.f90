@@ -97,8 +97,8 @@ contains
   !> Plan transforms of `length` >= 1 values.
   !>
   !> With `measured` (default .false.) FFTW measures which algorithm is fastest, which takes seconds for long
-  !> transforms. `separate` (default .false.) plans for `transform_to`; then `length` must be even. With `lines` >= 1 the
-  !> values are a grid of as many lines, transformed in both directions; then `separate` is not allowed.
+  !> transforms. `separate` (default .false.) plans for `transform_to`; then `length` must be even. With `lines` >= 1
+  !> the values are a grid of as many lines, transformed in both directions; then `separate` is not allowed.
   !> Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a library that was built
   !> without FFTW.
   subroutine set(self, length, info, measured, separate, lines)
