@@ -9,7 +9,8 @@
 # Operators by FFT, stresses on grids, transforms.
 set(fuge_of_fftw
   "(halfplane|halfspace)_?operator|operator_(halfplane|halfspace)|(stress|displacement)_grid|fugefx[^a-z]"
-  "(fft|line|split)_plan|kept_rows|set_grid_store|use fuge_(convolution|grid_convolution|grid_plan|grid_waves|halfspace_waves)")
+  "(fft|line|split)_plan|kept_rows|set_grid_store"
+  "use fuge_(convolution|grid_convolution|grid_plan|grid_waves|halfspace_waves)")
 list(JOIN fuge_of_fftw "|" fuge_of_fftw)
 
 # fuge_owner_<name>, in lower case: the component that has the module, that exports the Fortran name, or whose header

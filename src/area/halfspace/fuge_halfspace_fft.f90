@@ -96,7 +96,7 @@ contains
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
 
-  !> Plan and compute what belongs to the cells of `operator`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> Plan and compute what belongs to the cells of `operator`. Errors: FUGE_ERR_MEMORY.
   subroutine prepare(operator, info)
     type(fuge_halfspace_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
@@ -126,7 +126,7 @@ contains
     if (status == 0) call round_kernel(operator%influence, operator%single_influence, status)
   end subroutine prepare_single
 
-  !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> Plan the transforms. Error: FUGE_ERR_MEMORY.
   subroutine plan_transforms(operator, info)
     type(fuge_halfspace_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info

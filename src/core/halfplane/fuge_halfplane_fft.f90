@@ -86,7 +86,7 @@ contains
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
 
-  !> Plan the transforms. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> Plan the transforms. Errors: FUGE_ERR_MEMORY.
   subroutine plan_transforms(operator, info, measured)
     type(fuge_halfplane_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info

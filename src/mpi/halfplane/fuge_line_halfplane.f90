@@ -149,7 +149,7 @@ contains
     call operator%make_room(count_coarser(operator%line%cells))
   end subroutine prepare
 
-  !> What one of several ranks needs. Errors, on all ranks that have cells: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> What one of several ranks needs. Errors, on all ranks that have cells: FUGE_ERR_MEMORY.
   subroutine prepare_shared(operator, length, shared, info)
     type(fuge_mpi_halfplane_operator), intent(inout) :: operator
     integer, intent(in) :: length
@@ -163,7 +163,7 @@ contains
                                                   shared%influence, shared%inverse, operator%datum_value, info)
   end subroutine prepare_shared
 
-  !> What the only rank that has cells needs. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> What the only rank that has cells needs. Errors: FUGE_ERR_MEMORY.
   subroutine prepare_whole(operator, length, whole, info)
     type(fuge_mpi_halfplane_operator), intent(inout) :: operator
     integer, intent(in) :: length

@@ -60,7 +60,7 @@ module fuge_line_transform
 contains
 
   !> Plan for a circle of `length` cells that ranks share as fuge_line_cells says, the first of which make up `group`.
-  !> Errors, on any rank: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> Errors, on any rank: FUGE_ERR_MEMORY.
   subroutine set(self, group, cells, length, ranks, measured, info)
     class(line_transform), intent(inout) :: self
     type(rank_communicator), intent(in) :: group

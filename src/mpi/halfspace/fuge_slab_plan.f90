@@ -42,7 +42,7 @@ module fuge_slab_plan
 contains
 
   !> Plan for `cells` (2) of the whole grid on circles of `length` (2), or twice that where `padded` (2), shared by the
-  !> ranks of `group`. Errors, on any rank: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> ranks of `group`. Errors, on any rank: FUGE_ERR_MEMORY.
   subroutine set(self, group, cells, length, padded, ranks, measured, info)
     class(slab_plan), intent(inout) :: self
     type(rank_communicator), intent(in) :: group

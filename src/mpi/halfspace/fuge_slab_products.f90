@@ -48,7 +48,7 @@ module fuge_slab_products
 contains
 
   !> Plan and compute what belongs to the cells of `surface`. All ranks of `group` call it. Errors, on all of them:
-  !> FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> FUGE_ERR_MEMORY.
   subroutine prepare_products(products, surface, group, measured, info)
     type(slab_products), intent(inout) :: products
     type(halfspace_grid), intent(in) :: surface
@@ -84,7 +84,7 @@ contains
   end subroutine prepare_products
 
   !> What one of several ranks needs, of the `ranks` on which the rows are laid out, `holders` have any. Errors, on
-  !> all these: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> all these: FUGE_ERR_MEMORY.
   subroutine prepare_shared(surface, length, holders, ranks, measured, shared, info)
     type(halfspace_grid), intent(in) :: surface
     integer, intent(in) :: length(2), ranks
@@ -101,7 +101,7 @@ contains
                                                        info)
   end subroutine prepare_shared
 
-  !> What the only rank that has rows needs. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION.
+  !> What the only rank that has rows needs. Errors: FUGE_ERR_MEMORY.
   subroutine prepare_whole(surface, length, measured, whole, info)
     type(halfspace_grid), intent(in) :: surface
     integer, intent(in) :: length(2)

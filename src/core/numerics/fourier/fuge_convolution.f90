@@ -20,6 +20,7 @@ module fuge_convolution
   use fuge_pair_factors, only: pair_factors, soften
   use fuge_split_convolution, only: convolve_split, order_factors, order_odd_factors
   use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_unit_roots, only: fill_roots
   implicit none
   private
 
@@ -77,7 +78,7 @@ contains
       call order_factors(rows, columns, spectrum, self%factors)
     else if (mod(length, 2) == 0) then
       do k = 0, length/4
-        self%factors(:, k) = pair_factors(k, length, spectrum)
+        self%factors(:, k) = pair_factors(spectrum(k), spectrum(length/2 - k), root(k, length))
       end do
     else
       self%factors(1, :) = spectrum
@@ -124,6 +125,16 @@ contains
     if (allocated(self%twist)) deallocate (self%twist)
   end subroutine clear
 
+  !> Real and imaginary parts of exp(-2 pi i k/n), 0 <= k <= n/2.
+  pure function root(k, n)
+    integer, intent(in) :: k, n
+    real(dp) :: root(2)
+    real(dp) :: theta
+
+    theta = 2.0_dp*PI*(real(k, dp)/real(n, dp))
+    root = [cos(theta), -sin(theta)]
+  end function root
+
   !> cos and sin of pi j/N, j from 0; `twist` (2, N/2).
   pure subroutine compute_twist(twist)
     real(dp), intent(out) :: twist(:, :)
@@ -136,6 +147,14 @@ contains
       twist(2, j) = sin(angle)
     end do
   end subroutine compute_twist
+
+  !> The same for a long line: that many sines would take as long as its transforms.
+  pure subroutine compute_long_twist(twist)
+    real(dp), intent(inout), contiguous :: twist(:, :)
+
+    call fill_roots(4*size(twist, 2), twist)
+    twist(2, :) = -twist(2, :)
+  end subroutine compute_long_twist
 
   !> gfortran 12 does not free these arrays where a user's type holds an operator that holds the kernel.
   elemental subroutine release(self)
@@ -270,7 +289,11 @@ contains
       status = FUGE_ERR_MEMORY
     end if
     if (status /= FUGE_DONE) return
-    call compute_twist(twist)
+    if (plan%is_split()) then
+      call compute_long_twist(twist)
+    else
+      call compute_twist(twist)
+    end if
     do j = 0, n/2
       ! Odd about N/2: kernel(j) becomes the value at j, kernel(n - j) that at n - j.
       kernel(j) = kernel(j) - kernel(n - j)

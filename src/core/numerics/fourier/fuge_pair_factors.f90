@@ -9,7 +9,6 @@
 !> The factors of k are a -+ b sin(theta), those of Z_k and Z_(N/2-k) in their own numbers, and b cos(theta); twice as
 !> large, because spectra are divided by the number of real values, not of complex ones.
 module fuge_pair_factors
-  use fuge_constants, only: PI
   use fuge_kinds, only: dp
   implicit none
   private
@@ -18,22 +17,15 @@ module fuge_pair_factors
 
 contains
 
-  !> The factors of number `k` <= length/2 of `length` values, an even number, `spectrum` (0:length/2).
-  pure function pair_factors(k, length, spectrum) result(factors)
-    integer, intent(in) :: k, length
-    real(dp), intent(in) :: spectrum(0:)
+  !> The factors of number k, whose number of the spectrum is `one`; `other` that of N/2 - k, `root` real and imaginary
+  !> parts of exp(-2 pi i k/N).
+  pure function pair_factors(one, other, root) result(factors)
+    real(dp), intent(in) :: one, other, root(2)
     real(dp) :: factors(3)
-    real(dp) :: half_difference, mean, theta
 
-    integer :: lower
-
-    ! The other number has the same factors, the first two exchanged; a larger angle is rounded by more.
-    lower = min(k, length/2 - k)
-    mean = spectrum(lower) + spectrum(length/2 - lower)
-    half_difference = spectrum(lower) - spectrum(length/2 - lower)
-    theta = 2.0_dp*PI*(real(lower, dp)/real(length, dp))
-    factors = [mean - half_difference*sin(theta), mean + half_difference*sin(theta), half_difference*cos(theta)]
-    if (k > lower) factors(:2) = factors([2, 1])
+    associate (mean => one + other, half_difference => one - other)
+      factors = [mean + half_difference*root(2), mean - half_difference*root(2), half_difference*root(1)]
+    end associate
   end function pair_factors
 
   !> The factors of the spectrum s/(1 + softening s) from those of s, `factors` (3, :).

@@ -18,15 +18,19 @@ module fuge_split_convolution
   use fuge_split_plan, only: COLUMN_BLOCK, get_columns, line_stride, multiply_row, put_columns, split_plan
   use fuge_status, only: FUGE_DONE
   use fuge_threads, only: run_in_threads, share, threads_here
+  use fuge_unit_roots, only: root_of_one
   implicit none
   private
 
   public :: convolve_split, order_factors, order_odd_factors
 
-  !> Columns of values that are transformed together.
+  !> Columns of values that are transformed together, and half of them.
   integer, parameter :: WIDTH = COLUMN_BLOCK, HALF = WIDTH/2
   !> Lines of a thread: the complex columns of both circles, and one in which the first is transformed.
   integer, parameter :: LINES_OF_THREAD = 2*WIDTH + 1
+
+  !> Rows whose factors are put in order together: neighbours in memory of waves.
+  integer, parameter :: ROWS_TOGETHER = 8
 
   !> One product, for the threads that share it.
   type :: product_job
@@ -50,11 +54,24 @@ contains
     integer, intent(in) :: rows, columns
     real(dp), intent(in) :: spectrum(0:)
     real(dp), intent(out) :: factors(:, :)
-    integer :: p, q
+    real(dp) :: column_root(2, 0:columns - 1), row_root(2, 0:rows/2), w(2)
+    integer :: first, k, p, q
 
     do p = 0, rows/2
+      row_root(:, p) = root_of_one(p, 2*rows*columns)
+    end do
+    do q = 0, columns - 1
+      column_root(:, q) = root_of_one(q, 2*columns)
+    end do
+    do first = 0, rows/2, ROWS_TOGETHER
       do q = 0, columns - 1
-        factors(:, columns*p + q + 1) = pair_factors(p + rows*q, 2*rows*columns, spectrum)
+        do p = first, min(first + ROWS_TOGETHER - 1, rows/2)
+          associate (a => row_root(:, p), b => column_root(:, q))
+            w = [a(1)*b(1) - a(2)*b(2), a(1)*b(2) + a(2)*b(1)]
+          end associate
+          k = p + rows*q
+          factors(:, columns*p + q + 1) = pair_factors(spectrum(k), spectrum(rows*columns - k), w)
+        end do
       end do
     end do
   end subroutine order_factors
@@ -64,19 +81,23 @@ contains
     integer, intent(in) :: rows, columns
     real(dp), intent(in) :: factors(:)
     real(dp), intent(out) :: ordered(:)
-    integer :: p
+    integer :: first, p, q
 
-    do p = 0, rows - 1
-      ordered(columns*p + 1:columns*(p + 1)) = factors(p + 1::rows)
+    do first = 0, rows - 1, ROWS_TOGETHER
+      do q = 0, columns - 1
+        do p = first, min(first + ROWS_TOGETHER - 1, rows - 1)
+          ordered(columns*p + q + 1) = factors(p + rows*q + 1)
+        end do
+      end do
     end do
   end subroutine order_odd_factors
 
   !> y = the first values of the convolution of x, continued by zeros, with the kernel of the `factors` of pairs and,
   !> on a circle that is twice as long, the `odd_factors` of values half a circle apart.
   !>
-  !> With `softening` > 0 the factors are softened. Several threads may use the plan at once. `status`: 0, or with y
-  !> unchanged FUGE_ERR_MEMORY. The arguments are nine, because arrays have an explicit shape: gfortran copies arrays
-  !> to pass them as contiguous ones.
+  !> With `softening` > 0 each number s of the spectrum of pairs becomes s/(1 + softening s). Several threads may use
+  !> the plan at once. `status`: 0, or with y unchanged FUGE_ERR_MEMORY. The arguments are nine, because x and y have an
+  !> explicit shape: gfortran copies arrays to pass them as contiguous ones.
   subroutine convolve_split(plan, factors, odd_factors, softening, values, x, results, y, status)
     type(split_plan), intent(in), target :: plan
     real(dp), intent(in), contiguous, target :: factors(:, :)
@@ -90,7 +111,8 @@ contains
     type(taken_rows) :: taken
     integer :: rows, threads
 
-    threads = threads_here()
+    ! More threads would have no columns.
+    threads = min(threads_here(), blocks_of_columns(plan))
     job%padded = present(odd_factors)
     job%softening = softening
     rows = plan%rows*merge(2, 1, job%padded) + LINES_OF_THREAD*threads
@@ -129,7 +151,7 @@ contains
 
     call c_f_pointer(data, job)
     call find_lines(job, int(part), lines)
-    call share((job%plan%columns - 1)/WIDTH + 1, int(part), int(parts), from, to)
+    call share(blocks_of_columns(job%plan), int(part), int(parts), from, to)
     do block = from, to
       call find_columns(job%plan, block, first, done)
       call gather_values(job%plan, job%x, first, job%padded, lines(:, 2:))
@@ -137,6 +159,14 @@ contains
       call put_lines(job, first, done, lines)
     end do
   end subroutine transform_columns
+
+  !> How many times WIDTH columns are transformed together.
+  pure function blocks_of_columns(plan) result(blocks)
+    type(split_plan), intent(in) :: plan
+    integer :: blocks
+
+    blocks = (plan%columns - 1)/WIDTH + 1
+  end function blocks_of_columns
 
   !> The `first` column of a block, from 0. `done` columns, an even number, of the last block belong to the one before.
   pure subroutine find_columns(plan, block, first, done)
@@ -375,7 +405,7 @@ contains
 
     call c_f_pointer(data, job)
     call find_lines(job, int(part), lines)
-    call share((job%plan%columns - 1)/WIDTH + 1, int(part), int(parts), from, to)
+    call share(blocks_of_columns(job%plan), int(part), int(parts), from, to)
     do block = from, to
       call find_columns(job%plan, block, first, done)
       call get_lines(job, first, lines(:, 2:))

@@ -5,7 +5,7 @@ module fuge_unit_roots
   implicit none
   private
 
-  public :: quarter_root, root_of_one
+  public :: fill_roots, quarter_root, root_of_one
 
 contains
 
@@ -42,5 +42,25 @@ contains
     root = [cos(angle), -sin(angle)]
     if (k > n - k) root = [sin(angle), -cos(angle)]
   end function quarter_root
+
+  !> Real and imaginary parts of exp(-2 pi i k/n), k = 0, 1, .. < n, (2, :): many, each the product of two.
+  pure subroutine fill_roots(n, roots)
+    integer, intent(in) :: n
+    real(dp), intent(inout), contiguous :: roots(:, 0:)
+    integer, parameter :: BLOCK = 64
+    real(dp) :: far(2), near(2, 0:BLOCK - 1)
+    integer :: first, k
+
+    do k = 0, min(BLOCK, n) - 1
+      near(:, k) = root_of_one(k, n)
+    end do
+    do first = 0, ubound(roots, 2), BLOCK
+      far = root_of_one(first, n)
+      do k = 0, min(BLOCK - 1, ubound(roots, 2) - first)
+        roots(1, first + k) = far(1)*near(1, k) - far(2)*near(2, k)
+        roots(2, first + k) = far(1)*near(2, k) + far(2)*near(1, k)
+      end do
+    end do
+  end subroutine fill_roots
 
 end module fuge_unit_roots

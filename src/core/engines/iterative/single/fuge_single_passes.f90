@@ -148,13 +148,14 @@ contains
                                                 + real(pass%work(first:last), dp), sp)
   end subroutine start_distances
 
-  !> Distances from gaps and displacements less `motion`. Found: their sum over the contact.
+  !> Distances from gaps and displacements less `motion`. Found: their sum over the contact, and the largest magnitude of
+  !> a displacement.
   subroutine take_displacements(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
 
     pass%distance(first:last) = real((pass%gap(first:last) - pass%motion) + pass%displacement(first:last), sp)
-    pass%found(1, k) = sum_over_contact(pass, k, pass%distance)
+    pass%found(:, k) = [sum_over_contact(pass, k, pass%distance), maxval(abs(pass%displacement(first:last)))]
   end subroutine take_displacements
 
   !> Displacements from distances, which are too large by `shift`.
@@ -194,34 +195,30 @@ contains
   end subroutine add_moves
 
   !> Subtract `shift` from the distances; those in the contact are the residuals, which are zero off it. Found: the
-  !> largest residual, the deepest penetration, minus the least magnitude of a gap less `motion` in the contact, and the
-  !> largest magnitude of a displacement.
+  !> largest residual, the deepest penetration, and minus the least magnitude of a gap less `motion` in the contact.
   subroutine settle_distances(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
-    real(dp) :: gap, least, largest
+    real(dp) :: least
     real(sp) :: deepest, residuals, shift
     integer :: i
 
     least = huge(least)
-    largest = 0.0_dp
     residuals = 0.0_sp
     deepest = 0.0_sp
     shift = real(pass%shift, sp)
     do i = first, last
       pass%distance(i) = pass%distance(i) - shift
-      gap = pass%gap(i) - pass%motion
-      largest = max(largest, abs(real(pass%distance(i), dp) - gap))
       if (pass%contact(i)) then
         pass%residual(i) = pass%distance(i)
         residuals = max(residuals, abs(pass%distance(i)))
-        least = min(least, abs(gap))
+        least = min(least, abs(pass%gap(i) - pass%motion))
       else
         pass%residual(i) = 0.0_sp
         deepest = max(deepest, -pass%distance(i))
       end if
     end do
-    pass%found(:, k) = [real(residuals, dp), real(deepest, dp), -least, largest]
+    pass%found(:, k) = [real(residuals, dp), real(deepest, dp), -least]
   end subroutine settle_distances
 
   !> Found: the sum of `uniform` over the contact.

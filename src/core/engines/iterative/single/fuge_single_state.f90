@@ -24,6 +24,8 @@ module fuge_single_state
     real(sp), allocatable :: direction(:), work(:), uniform(:)
     !> The distances may have this error.
     real(dp) :: drift = 0.0_dp
+    !> The largest magnitude of a displacement, as the last whole product gave it.
+    real(dp) :: largest = 0.0_dp
     !> The largest tension.
     real(dp) :: tension = 0.0_dp
     !> The displacements of the iterate are those of its forces, from a product in double precision.
@@ -81,7 +83,8 @@ contains
     if (info%failed()) return
     call state%point_to(scene, iterate, pass)
     call pass%go(sum_gaps, 2)
-    state%drift = SINGLE_ERROR*pass%largest(2)
+    state%largest = pass%largest(2)
+    state%drift = SINGLE_ERROR*state%largest
     iterate%motion = pass%total(1)/real(iterate%segments%points, dp)
     pass%motion = iterate%motion
     call pass%go(start_distances, 0)
@@ -126,7 +129,8 @@ contains
     state%drift = 0.0_dp
     state%offset = 0.0_dp
     call state%point_to(scene, iterate, pass)
-    call pass%go(take_displacements, 1)
+    call pass%go(take_displacements, 2)
+    state%largest = pass%largest(2)
     call settle(operator, scene, pass%total(1)/real(iterate%segments%points, dp), state, iterate)
   end subroutine refresh
 
@@ -143,10 +147,10 @@ contains
     state%offset = 0.0_dp
     call state%point_to(scene, iterate, pass)
     pass%shift = mean
-    call pass%go(settle_distances, 4)
+    call pass%go(settle_distances, 3)
     iterate%residual_norm = pass%largest(1)
     iterate%penetration = pass%largest(2)
-    iterate%largest_magnitude = operator%common_magnitude(pass%largest(4), 1.0_dp)
+    iterate%largest_magnitude = operator%common_magnitude(state%largest, 1.0_dp)
     iterate%least_magnitude = iterate%largest_magnitude - pass%largest(3)
     if (iterate%start_error < 0.0_dp) iterate%start_error = relative_error(iterate)
   end subroutine settle
