@@ -3,8 +3,8 @@ module fuge_line_plan
   use, intrinsic :: iso_c_binding, only: c_double, c_loc
   use fuge_circle_split, only: split_circle
   use fuge_fft, only: fft_plan
-  use fuge_kept_rows, only: return_rows, take_rows, taken_rows
-  use fuge_split_plan, only: get_columns, line_stride, put_columns, split_plan
+  use fuge_kept_rows, only: return_rows, taken_rows
+  use fuge_split_plan, only: get_columns, put_columns, split_plan, take_work
   use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_CALL_ORDER
   implicit none
   private
@@ -107,11 +107,12 @@ contains
     integer, intent(out) :: status
     type(taken_rows) :: taken
     real(c_double), pointer, contiguous :: work(:, :)
+    integer :: threads
 
-    call take_rows(plan%kept, line_stride(plan), rows + LINES_TOGETHER + 2, taken, work, status)
+    call take_work(plan, threads, taken, work, status)
     if (status /= FUGE_DONE) return
-    call transform_columns(plan, rows, columns, z, work(:, rows + 1:), work(:, :rows))
-    call transform_rows(plan, rows, columns, work(:, :rows), work(:, rows + 1:), z)
+    call transform_columns(plan, rows, columns, z, work(:, 2*rows + 1:), work(:, :rows))
+    call transform_rows(plan, rows, columns, work(:, :rows), work(:, 2*rows + 1:), z)
     call return_rows(plan%kept, taken)
   end subroutine transform_grid
 

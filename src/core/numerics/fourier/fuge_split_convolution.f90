@@ -12,12 +12,13 @@
 module fuge_split_convolution
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_loc, c_ptr
   use fuge_fft, only: fft_plan
-  use fuge_kept_rows, only: return_rows, take_rows, taken_rows
+  use fuge_kept_rows, only: return_rows, taken_rows
   use fuge_kinds, only: dp
   use fuge_pair_factors, only: pair_factors, soften
-  use fuge_split_plan, only: COLUMN_BLOCK, get_columns, line_stride, multiply_row, put_columns, split_plan
+  use fuge_split_plan, only: blocks_of_columns, get_columns, multiply_row, put_columns, split_plan, take_work, &
+    COLUMN_BLOCK, LINES_OF_THREAD
   use fuge_status, only: FUGE_DONE
-  use fuge_threads, only: run_in_threads, share, threads_here
+  use fuge_threads, only: run_in_threads, share
   use fuge_unit_roots, only: root_of_one
   implicit none
   private
@@ -26,9 +27,6 @@ module fuge_split_convolution
 
   !> Columns of values that are transformed together, and half of them.
   integer, parameter :: WIDTH = COLUMN_BLOCK, HALF = WIDTH/2
-  !> Lines of a thread: the complex columns of both circles, and one in which the first is transformed.
-  integer, parameter :: LINES_OF_THREAD = 2*WIDTH + 1
-
   !> Rows whose factors are put in order together: neighbours in memory of waves.
   integer, parameter :: ROWS_TOGETHER = 8
 
@@ -109,15 +107,12 @@ contains
     integer, intent(out) :: status
     type(product_job), target :: job
     type(taken_rows) :: taken
-    integer :: rows, threads
+    integer :: threads
 
-    ! More threads would have no columns.
-    threads = min(threads_here(), blocks_of_columns(plan))
+    call take_work(plan, threads, taken, job%work, status)
+    if (status /= FUGE_DONE) return
     job%padded = present(odd_factors)
     job%softening = softening
-    rows = plan%rows*merge(2, 1, job%padded) + LINES_OF_THREAD*threads
-    call take_rows(plan%kept, line_stride(plan), rows, taken, job%work, status)
-    if (status /= FUGE_DONE) return
     ! By addresses, because no pointer may be associated with arguments that are read only.
     call c_f_pointer(c_loc(plan), job%plan)
     call c_f_pointer(c_loc(factors), job%factors, [3, plan%columns, plan%rows/2 + 1])
@@ -137,7 +132,7 @@ contains
     real(c_double), pointer, contiguous, intent(out) :: lines(:, :)
     integer :: first
 
-    first = job%plan%rows*merge(2, 1, job%padded) + LINES_OF_THREAD*part
+    first = 2*job%plan%rows + LINES_OF_THREAD*part
     lines => job%work(:, first + 1:first + LINES_OF_THREAD)
   end subroutine find_lines
 
@@ -159,14 +154,6 @@ contains
       call put_lines(job, first, done, lines)
     end do
   end subroutine transform_columns
-
-  !> How many times WIDTH columns are transformed together.
-  pure function blocks_of_columns(plan) result(blocks)
-    type(split_plan), intent(in) :: plan
-    integer :: blocks
-
-    blocks = (plan%columns - 1)/WIDTH + 1
-  end function blocks_of_columns
 
   !> The `first` column of a block, from 0. `done` columns, an even number, of the last block belong to the one before.
   pure subroutine find_columns(plan, block, first, done)

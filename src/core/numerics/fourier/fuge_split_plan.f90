@@ -11,21 +11,24 @@
 module fuge_split_plan
   use, intrinsic :: iso_c_binding, only: c_double
   use fuge_fft, only: fft_plan
-  use fuge_kept_rows, only: free_rows, kept_rows
+  use fuge_kept_rows, only: free_rows, kept_rows, take_rows, taken_rows
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY
+  use fuge_threads, only: threads_here
   use fuge_unit_roots, only: quarter_root, root_of_one
   implicit none
   private
 
-  public :: get_columns, line_stride, multiply_row, put_columns
+  public :: blocks_of_columns, get_columns, line_stride, multiply_row, put_columns, take_work
 
   !> Columns for which each row has factors; those of others are their products with the factors of every NEAR-th one.
   integer, parameter :: NEAR = 32
 
   !> C is at least as large: columns of values that are transformed together.
   integer, parameter, public :: COLUMN_BLOCK = 32
+  !> Lines of a thread: the complex columns of both circles, and one in which the first is transformed.
+  integer, parameter, public :: LINES_OF_THREAD = 2*COLUMN_BLOCK + 1
 
   !> Transforms of one grid.
   type, public :: split_plan
@@ -153,6 +156,28 @@ contains
 
     stride = 2*max(plan%rows, plan%columns) + 8
   end function line_stride
+
+  !> How many times COLUMN_BLOCK columns are transformed together.
+  pure function blocks_of_columns(plan) result(blocks)
+    type(split_plan), intent(in) :: plan
+    integer :: blocks
+
+    blocks = (plan%columns - 1)/COLUMN_BLOCK + 1
+  end function blocks_of_columns
+
+  !> Take room for R lines of each of two circles and LINES_OF_THREAD lines of each of `threads`, to be returned. All of
+  !> it even if less is needed, because it is kept. `status` as in `take_rows`.
+  subroutine take_work(plan, threads, taken, work, status)
+    type(split_plan), intent(in) :: plan
+    integer, intent(out) :: threads
+    type(taken_rows), intent(out) :: taken
+    real(c_double), pointer, contiguous, intent(out) :: work(:, :)
+    integer, intent(out) :: status
+
+    ! More threads would have no columns.
+    threads = min(threads_here(), blocks_of_columns(plan))
+    call take_rows(plan%kept, line_stride(plan), 2*plan%rows + LINES_OF_THREAD*threads, taken, work, status)
+  end subroutine take_work
 
   !> Copy `count` columns of `table`, from number `place` (from 0) on, to the lines of a buffer. The rows of the table
   !> are lines of complex numbers.
