@@ -8,7 +8,7 @@
 module fuge_single_gradients
   use fuge_contact_iterate, only: contact_iterate, is_accurate
   use fuge_contact_scene, only: contact_scene
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: dp, sp
   use fuge_operator_products, only: multiply_single
   use fuge_operator_type, only: fuge_operator
   use fuge_single_passes, only: point_pass, step_all, sum_curvature, turn_direction
@@ -22,8 +22,9 @@ module fuge_single_gradients
 
   !> As in fuge_projected_gradients.
   real(dp), parameter :: DECISIVE = 0.2_dp, NEARLY = 100.0_dp
-  !> Residuals below this multiple of the errors of the displacements are replaced.
-  real(dp), parameter :: REPLACED = 100.0_dp
+  !> Residuals below the first multiple of the errors of the distances are replaced, unless these are below the second
+  !> fraction of what is allowed.
+  real(dp), parameter :: REPLACED = 100.0_dp, NEGLIGIBLE = 0.1_dp
   !> Steps at most.
   integer, parameter :: LIMIT = 1000
 
@@ -51,15 +52,16 @@ contains
     call iterate%lanczos%restart()
     previous = 1.0_dp
     do iteration = 0, LIMIT
+      if (iterate%residual_norm < REPLACED*state%drift .and. &
+          state%drift > NEGLIGIBLE*tolerance*iterate%least_magnitude) then
+        call refresh(operator, scene, .false., state, iterate, info)
+        if (info%failed()) return
+        cycle
+      end if
       iterate%converged = is_accurate(iterate, tolerance)
       if (iterate%converged) return
       if (iteration > 0 .and. .not. to_tolerance) then
         if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
-      end if
-      if (iterate%residual_norm < REPLACED*state%drift) then
-        call refresh(operator, scene, .false., state, iterate, info)
-        if (info%failed()) return
-        cycle
       end if
       call preconditioner%apply(operator, scene, state, iterate, factor, energy, info)
       lost = .not. energy > 0.0_dp
@@ -106,7 +108,7 @@ contains
     step_length = energy/curvature
     points = real(iterate%segments%points, dp)
     mean = pass%total(2)/points
-    state%drift = state%drift + SINGLE_ERROR*step_length*pass%largest(3)
+    state%drift = state%drift + SINGLE_ERROR*step_length*pass%largest(3) + epsilon(1.0_sp)*iterate%residual_norm
     iterate%motion = iterate%motion - step_length*mean
     pass%factor = step_length
     pass%shift = step_length*mean - state%offset

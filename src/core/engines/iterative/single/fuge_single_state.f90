@@ -152,6 +152,8 @@ contains
     iterate%penetration = pass%largest(2)
     iterate%largest_magnitude = operator%common_magnitude(state%largest, 1.0_dp)
     iterate%least_magnitude = iterate%largest_magnitude - pass%largest(3)
+    ! Distances are rounded as long as they are large.
+    state%drift = state%drift + epsilon(1.0_sp)*(abs(mean) + iterate%residual_norm + iterate%penetration)
     if (iterate%start_error < 0.0_dp) iterate%start_error = relative_error(iterate)
   end subroutine settle
 
