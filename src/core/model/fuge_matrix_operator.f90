@@ -10,7 +10,8 @@ module fuge_matrix_operator
   use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
-    FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
+    FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW
+  use fuge_threads, only: thread_team, usable_threads
   implicit none
   private
 
@@ -47,15 +48,18 @@ contains
   !>
   !> `alpha` is (n, n), or (lda, n) with lda > n where the first n rows count; length per force. It is
   !> not copied: declare it `target`, and keep it unchanged until the operator is set again. After a change, even
-  !> of one coefficient, set it again: solvers keep the factor of the matrix from solve to solve until then.
-  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW,
+  !> of one coefficient, set it again: solvers keep the factor of the matrix from solve to solve until then. Up to
+  !> `threads` threads (default 1; 0: as many as there are cores) share the one pass over the matrix, which checks it.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW, FUGE_ERR_OPTION,
   !> FUGE_ERR_POINTER for a section that is not contiguous; they leave the operator as it was.
-  subroutine set(self, alpha, info)
+  subroutine set(self, alpha, info, threads)
     class(fuge_dense_operator), intent(inout) :: self
     real(dp), intent(in), target :: alpha(:, :)
     type(fuge_info), intent(out) :: info
+    integer, intent(in), optional :: threads
     real(dp), pointer, contiguous :: matrix(:, :)
     type(matrix_survey) :: survey
+    type(thread_team) :: team
 
     if (.not. is_contiguous(alpha)) then
       call report(info, FUGE_ERR_POINTER, 'alpha is a section with gaps between its columns: pass the whole ' &
@@ -68,10 +72,16 @@ contains
       call report(info, FUGE_ERR_SIZE, 'alpha has '//text(size(alpha, 1))//' rows and '//text(size(alpha, 2)) &
         //' columns: its leading dimension must be at least n')
     end if
+    if (present(threads)) then
+      if (threads < 0) call report(info, FUGE_ERR_OPTION, 'threads = '//text(threads) &
+                                   //' must be at least 1, or 0 for as many as there are cores')
+    end if
     if (info%failed()) return
     ! By its address, because the compiler does not know that alpha is contiguous.
     call c_f_pointer(c_loc(alpha(1, 1)), matrix, shape(alpha))
+    if (present(threads)) call team%begin(merge(threads, usable_threads(), threads > 0))
     call survey_matrix(matrix, survey)
+    call team%end()
     call judge_survey(matrix, survey, info)
     if (info%failed()) return
     self%alpha => matrix
