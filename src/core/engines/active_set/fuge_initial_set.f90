@@ -28,6 +28,10 @@ module fuge_initial_set
   real(dp), parameter :: ROUNDING = 1.0e-13_dp
   !> Resistance to a mode below this fraction of that of all points together is not used.
   real(dp), parameter :: HARDLY_RESISTED = 1.0e-12_dp
+  !> For this many points or more, with less than this fraction of them in contact, of which fewer than 1/CALM change,
+  !> their block of alpha is worth its copy.
+  integer, parameter :: WORTH_A_BLOCK = 128, CALM = 8
+  real(dp), parameter :: NARROW = 0.6_dp
   !> A play beyond this many times the length of the problem counts as unlimited.
   real(dp), parameter :: FAR = 1.0e8_dp
 
@@ -54,6 +58,8 @@ module fuge_initial_set
     logical, allocatable :: contact(:)
     !> Sum of the squares of the slopes one step before; zero for a new start.
     real(dp) :: previous = 0.0_dp
+    !> Length of the last step.
+    real(dp) :: step = 0.0_dp
   end type descent
 
 contains
@@ -67,30 +73,104 @@ contains
     integer, intent(inout) :: state(:), products
     type(scaled_problem) :: scaled
     type(descent) :: now
-    integer :: fallback(size(state)), before(size(state)), iteration, quiet_for
-    real(dp) :: step
+    integer :: fallback(size(state))
 
     call make_scaled(canonical, scaled)
     if (.not. scaled%factor > 0.0_dp) return
     fallback = state
     call start_descent(canonical, scaled, state, now, products)
+    call descend(canonical, scaled, MOST_ITERATIONS, size(state) >= WORTH_A_BLOCK, state, now, products)
+    ! Nothing touched from the start, or numbers have overflowed.
+    if (.not. (any(state /= FUGE_OPEN) .and. all(abs(now%force) <= huge(1.0_dp)))) state = fallback
+  end subroutine guess_initial_set
+
+  !> Descend until the set has converged. With `may_narrow` most of that is done with the block of alpha of the points
+  !> in contact, once few of them change.
+  recursive subroutine descend(canonical, scaled, limit, may_narrow, state, now, products)
+    type(canonical_problem), intent(in) :: canonical
+    type(scaled_problem), intent(in) :: scaled
+    integer, intent(in) :: limit
+    logical, intent(in) :: may_narrow
+    integer, intent(inout) :: state(:), products
+    type(descent), intent(inout) :: now
+    integer :: before(size(state)), contacts, iteration, quiet_for
+    logical :: gains, narrows
+
     quiet_for = 0
-    do iteration = 1, MOST_ITERATIONS
+    narrows = may_narrow
+    do iteration = 1, limit
       call find_slope(canonical, scaled, state, now)
-      call find_step(canonical, scaled, now, step, products)
-      if (.not. step > 0.0_dp) exit
+      call find_step(canonical, scaled, now, gains, products)
+      if (.not. gains) exit
       before = state
-      call take_descent_step(canonical, scaled, step, state, now)
+      call take_descent_step(canonical, scaled, state, now)
       if (.not. any(state /= FUGE_OPEN)) then
         state = before
         exit
       end if
       quiet_for = merge(quiet_for + 1, 0, is_settled(canonical, before, state))
       if (quiet_for >= QUIET) exit
+      if (.not. narrows) cycle
+      contacts = count(state /= FUGE_OPEN)
+      if (contacts > NARROW*size(state) .or. count(state /= before)*CALM > contacts) cycle
+      call descend_on_contact(canonical, scaled, state, now, products)
+      before = state
+      call find_slope(canonical, scaled, state, now)
+      call take_descent_step(canonical, scaled, state, now)
+      if (is_settled(canonical, before, state)) exit
+      narrows = .false.
     end do
-    ! Nothing touched from the start, or numbers have overflowed.
-    if (.not. (any(state /= FUGE_OPEN) .and. all(abs(now%force) <= huge(step)))) state = fallback
-  end subroutine guess_initial_set
+  end subroutine descend
+
+  !> Descend with the points in contact only, which may open, and find the displacements of all points by what has been
+  !> added to the forces. The direction is zero on return.
+  recursive subroutine descend_on_contact(canonical, scaled, state, now, products)
+    type(canonical_problem), intent(in) :: canonical
+    type(scaled_problem), intent(in) :: scaled
+    integer, intent(inout) :: state(:), products
+    type(descent), intent(inout) :: now
+    type(canonical_problem) :: part
+    type(scaled_problem) :: scaled_part
+    type(descent) :: there
+    real(dp), allocatable, target :: block(:, :)
+    integer :: points(count(state /= FUGE_OPEN)), states(size(points)), j, m, stat
+
+    m = size(points)
+    allocate (block(m, m), stat=stat)
+    if (stat /= 0) return
+    points = pack([(j, j=1, size(state))], state /= FUGE_OPEN)
+    do j = 1, m
+      block(:, j) = canonical%alpha(points, points(j))
+    end do
+    part%alpha => block
+    part%plain = canonical%plain
+    part%modes = canonical%modes(points, :)
+    part%load = canonical%load
+    part%excluded = canonical%excluded(points)
+    scaled_part%gap = scaled%gap(points)
+    scaled_part%upper = scaled%upper(points)
+    scaled_part%tied = scaled%tied(points)
+    scaled_part%load = scaled%load
+    scaled_part%factor = scaled%factor
+    states = state(points)
+    call allocate_descent(m, there)
+    there%force = now%force(points)
+    there%displacement = now%displacement(points)
+    there%direction = now%direction(points)
+    there%previous = now%previous
+    there%step = now%step
+    call descend(part, scaled_part, MOST_ITERATIONS, .false., states, there, products)
+    now%added = 0.0_dp
+    now%added(points) = there%force - now%force(points)
+    now%force(points) = there%force
+    now%step = there%step
+    state(points) = states
+    call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
+    products = products + 1
+    now%direction = 0.0_dp
+    now%change = 0.0_dp
+    now%previous = 0.0_dp
+  end subroutine descend_on_contact
 
   !> The problem without units.
   pure subroutine make_scaled(canonical, scaled)
@@ -132,8 +212,7 @@ contains
     integer :: n
 
     n = size(state)
-    allocate (now%force(n), now%displacement(n), now%gap(n), now%slope(n), now%direction(n), now%change(n), &
-              now%elastic_change(n), now%stepped(n), now%added(n), now%contact(n))
+    call allocate_descent(n, now)
     if (canonical%plain) then
       state = FUGE_AT_LOWER_STOP
       now%force = 1.0_dp/real(n, dp)
@@ -148,6 +227,14 @@ contains
     call add_rough_product(canonical%alpha, scaled%factor, now%force, now%displacement)
     products = products + 1
   end subroutine start_descent
+
+  pure subroutine allocate_descent(n, now)
+    integer, intent(in) :: n
+    type(descent), intent(out) :: now
+
+    allocate (now%force(n), now%displacement(n), now%gap(n), now%slope(n), now%direction(n), now%change(n), &
+              now%elastic_change(n), now%stepped(n), now%added(n), now%contact(n))
+  end subroutine allocate_descent
 
   !> Gaps less their rigid part, and their distances from the stops.
   subroutine find_slope(canonical, scaled, state, now)
@@ -164,19 +251,18 @@ contains
     where (.not. now%contact) now%slope = 0.0_dp
   end subroutine find_slope
 
-  !> The conjugate direction, the displacements by it, and the step along it to the least energy; zero if there is
-  !> nothing to gain.
-  subroutine find_step(canonical, scaled, now, step, products)
+  !> The conjugate direction, the displacements by it, and the step along it to the least energy, if it `gains` any.
+  subroutine find_step(canonical, scaled, now, gains, products)
     type(canonical_problem), intent(in) :: canonical
     type(scaled_problem), intent(in) :: scaled
     type(descent), intent(inout) :: now
-    real(dp), intent(out) :: step
+    logical, intent(out) :: gains
     integer, intent(inout) :: products
-    real(dp) :: curvature, conjugacy, squares
+    real(dp) :: curvature, conjugacy, squares, step
     integer :: n
 
     n = size(now%slope)
-    step = 0.0_dp
+    gains = .false.
     if (maxval(abs(now%slope)) <= ROUNDING*maxval(abs(now%gap))) return
     squares = ddot(n, now%slope, 1, now%slope, 1)
     if (.not. squares > 0.0_dp) return
@@ -190,22 +276,24 @@ contains
     now%elastic_change = now%change
     call subtract_rigid_motion(canonical, now%contact, now%elastic_change)
     curvature = ddot(n, now%elastic_change, 1, now%direction, 1)
-    if (curvature > 0.0_dp) step = ddot(n, now%slope, 1, now%direction, 1)/curvature
+    if (.not. curvature > 0.0_dp) return
+    step = ddot(n, now%slope, 1, now%direction, 1)/curvature
+    gains = step > 0.0_dp
+    if (gains) now%step = step
   end subroutine find_step
 
   !> Take the step, exchange points and restore equilibrium; the displacements follow.
-  subroutine take_descent_step(canonical, scaled, step, state, now)
+  subroutine take_descent_step(canonical, scaled, state, now)
     type(canonical_problem), intent(in) :: canonical
     type(scaled_problem), intent(in) :: scaled
-    real(dp), intent(in) :: step
     integer, intent(inout) :: state(:)
     type(descent), intent(inout) :: now
     real(dp) :: stretch
     logical :: joined
 
-    now%stepped = now%force - step*now%direction
+    now%stepped = now%force - now%step*now%direction
     now%force = now%stepped
-    call exchange_points(scaled, canonical%excluded, now%gap, step, state, now%force, joined)
+    call exchange_points(scaled, canonical%excluded, now%gap, now%step, state, now%force, joined)
     if (joined) now%previous = 0.0_dp
     stretch = 1.0_dp
     if (canonical%plain) then
@@ -216,7 +304,7 @@ contains
       call restore_equilibrium(canonical, scaled, state, now%force)
       now%added = now%force - now%stepped
     end if
-    now%displacement = now%displacement - step*now%change
+    now%displacement = now%displacement - now%step*now%change
     call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
     now%displacement = stretch*now%displacement
   end subroutine take_descent_step
