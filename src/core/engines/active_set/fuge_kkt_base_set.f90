@@ -4,9 +4,10 @@
 !> is a translation, or multiples of R R^T added to it, change the motions and not the forces, and can make the block
 !> positive definite. Where it is singular, a regularisation is added to its diagonal.
 module fuge_kkt_base_set
+  use fuge_blocked_cholesky, only: factor_in_blocks
   use fuge_canonical_problem, only: canonical_problem
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dpotrf, dtrsv
+  use fuge_lapack, only: dtrsv
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
@@ -155,7 +156,7 @@ contains
     self%pivot_ratio = 1.0_dp
     is_definite = .true.
     if (m < 1) return
-    call dpotrf('L', m, self%lower, m, info)
+    call factor_in_blocks(self%lower, info)
     is_definite = info == 0
     if (.not. is_definite) return
     largest = maxval(self%diagonal)
