@@ -21,7 +21,7 @@ module fuge_matrix_operator
   real(dp), parameter :: ROUNDINGS = 4.0_dp
 
   !> Threads share a product with more coefficients than this, in groups of ROWS rows.
-  real(dp), parameter :: SHARED = 2.0_dp**18
+  real(dp), parameter :: SHARED = 2.0_dp**17
   integer, parameter :: ROWS = 16
 
   !> Largest asymmetry taken for rounding, relative to the range of the coefficients.

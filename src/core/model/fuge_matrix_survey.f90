@@ -22,7 +22,7 @@ module fuge_matrix_survey
   !> Numbers of a column that are looked at side by side.
   integer, parameter :: LANES = 8
   !> Threads share the survey of matrices with as many points as this.
-  integer, parameter :: MANY_POINTS = 256
+  integer, parameter :: MANY_POINTS = 512
   !> The bits of a number but for its sign, and those of the largest number that is small enough to be summed.
   integer(int64), parameter :: MAGNITUDE_BITS = not(ishft(1_int64, 63))
   integer(int64), parameter :: LARGEST_BITS = ishft(int(LARGEST_EXPONENT + 1023, int64), 52) - 1

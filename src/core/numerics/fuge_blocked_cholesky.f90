@@ -16,7 +16,7 @@ module fuge_blocked_cholesky
   !> Columns of a block of the factor, and of right-hand sides.
   integer, parameter :: BLOCK = 128, RIGHT_SIDES = 32
 
-  !> What follows the factor of the block of columns from `first` on: the rows below it, then the columns behind it.
+  !> What follows the factor of the block of columns from `first` on: the rows below it, then the square tiles behind it.
   type, extends(work_in_parts) :: trailing_work
     real(dp), pointer, contiguous :: matrix(:, :) => null()
     integer :: first = 1
@@ -39,7 +39,7 @@ contains
     real(dp), intent(inout), target, contiguous :: matrix(:, :)
     integer, intent(out) :: info
     type(trailing_work) :: work
-    integer :: n, parts
+    integer :: blocks, n
 
     n = size(matrix, 2)
     info = 0
@@ -51,12 +51,12 @@ contains
     do while (work%first <= n)
       call factor_diagonal(size(matrix, 1), n, matrix, work%first, info)
       if (info /= 0) return
-      parts = (n - work%first)/BLOCK
-      if (parts > 0) then
+      blocks = (n - work%first)/BLOCK
+      if (blocks > 0) then
         work%solves = .true.
-        call run_in_parts(parts, work)
+        call run_in_parts(blocks, work)
         work%solves = .false.
-        call run_in_parts(parts, work)
+        call run_in_parts((blocks*(blocks + 1))/2, work)
       end if
       work%first = work%first + BLOCK
     end do
@@ -73,15 +73,23 @@ contains
   subroutine do_trailing_part(self, part, parts)
     class(trailing_work), intent(inout) :: self
     integer, intent(in) :: part, parts
-    integer :: behind
+    integer :: column, row
 
     if (part >= parts) return
-    behind = self%first + (part + 1)*BLOCK
     if (self%solves) then
-      call solve_rows(size(self%matrix, 1), size(self%matrix, 2), self%matrix, self%first, behind)
-    else
-      call update_columns(size(self%matrix, 1), size(self%matrix, 2), self%matrix, self%first, behind)
+      call solve_rows(size(self%matrix, 1), size(self%matrix, 2), self%matrix, self%first, &
+                      self%first + (part + 1)*BLOCK)
+      return
     end if
+    ! Tiles are numbered row by row.
+    row = 0
+    column = part
+    do while (column > row)
+      row = row + 1
+      column = column - row
+    end do
+    call update_tile(size(self%matrix, 1), size(self%matrix, 2), self%matrix, self%first, &
+                     self%first + (row + 1)*BLOCK, self%first + (column + 1)*BLOCK)
   end subroutine do_trailing_part
 
   !> The rows from `row` on of the block of columns from `first` on of the factor.
@@ -93,18 +101,20 @@ contains
                matrix(row, first), lda)
   end subroutine solve_rows
 
-  !> Subtract the product of the block of columns from `first` on of the factor from the columns from `column` on.
-  subroutine update_columns(lda, n, matrix, first, column)
-    integer, intent(in) :: lda, n, first, column
+  !> Subtract the product of the block of columns from `first` on of the factor from the tile at `row` and `column`.
+  subroutine update_tile(lda, n, matrix, first, row, column)
+    integer, intent(in) :: lda, n, first, row, column
     real(dp), intent(inout) :: matrix(lda, n)
-    integer :: below, columns
+    integer :: rows
 
-    columns = min(BLOCK, n - column + 1)
-    call dsyrk('L', 'N', columns, BLOCK, -1.0_dp, matrix(column, first), lda, 1.0_dp, matrix(column, column), lda)
-    below = n - column - columns + 1
-    if (below > 0) call dgemm('N', 'T', below, columns, BLOCK, -1.0_dp, matrix(column + columns, first), lda, &
-                              matrix(column, first), lda, 1.0_dp, matrix(column + columns, column), lda)
-  end subroutine update_columns
+    rows = min(BLOCK, n - row + 1)
+    if (row == column) then
+      call dsyrk('L', 'N', rows, BLOCK, -1.0_dp, matrix(row, first), lda, 1.0_dp, matrix(row, row), lda)
+    else
+      call dgemm('N', 'T', rows, BLOCK, BLOCK, -1.0_dp, matrix(row, first), lda, matrix(column, first), lda, 1.0_dp, &
+                 matrix(row, column), lda)
+    end if
+  end subroutine update_tile
 
   !> Replace the columns of `right` by their solutions with the lower triangular matrix `lower`.
   subroutine solve_in_blocks(lower, right)

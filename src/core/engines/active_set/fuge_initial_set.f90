@@ -9,6 +9,7 @@ module fuge_initial_set
   use fuge_displacements, only: add_rough_product
   use fuge_kinds, only: dp
   use fuge_lapack, only: ddot, dgesv
+  use fuge_threads, only: run_in_parts, share, threads_here, work_in_parts
   implicit none
   private
 
@@ -31,6 +32,8 @@ module fuge_initial_set
   !> For this many points or more, with less than this fraction of them in contact, of which fewer than 1/CALM change,
   !> their block of alpha is worth its copy.
   integer, parameter :: WORTH_A_BLOCK = 128, CALM = 8
+  !> Threads share the copy of the block of as many points as this.
+  integer, parameter :: MANY_POINTS = 384
   real(dp), parameter :: NARROW = 0.6_dp
   !> A play beyond this many times the length of the problem counts as unlimited.
   real(dp), parameter :: FAR = 1.0e8_dp
@@ -61,6 +64,14 @@ module fuge_initial_set
     !> Length of the last step.
     real(dp) :: step = 0.0_dp
   end type descent
+
+  !> A block of alpha that is copied, of which each part has some columns.
+  type, extends(work_in_parts) :: block_copy
+    real(dp), pointer, contiguous :: alpha(:, :) => null(), block(:, :) => null()
+    integer, pointer, contiguous :: points(:) => null()
+  contains
+    procedure :: do_part => copy_part
+  end type block_copy
 
 contains
 
@@ -139,9 +150,7 @@ contains
     allocate (block(m, m), stat=stat)
     if (stat /= 0) return
     points = pack([(j, j=1, size(state))], state /= FUGE_OPEN)
-    do j = 1, m
-      block(:, j) = canonical%alpha(points, points(j))
-    end do
+    call gather_block(canonical%alpha, points, block)
     part%alpha => block
     part%plain = canonical%plain
     part%modes = canonical%modes(points, :)
@@ -171,6 +180,41 @@ contains
     now%change = 0.0_dp
     now%previous = 0.0_dp
   end subroutine descend_on_contact
+
+  !> The block of alpha of some points; threads share the columns if there are many.
+  subroutine gather_block(alpha, points, block)
+    real(dp), intent(in), target, contiguous :: alpha(:, :)
+    integer, intent(in), target, contiguous :: points(:)
+    real(dp), intent(inout), target, contiguous :: block(:, :)
+    type(block_copy) :: work
+
+    work%alpha => alpha
+    work%points => points
+    work%block => block
+    call run_in_parts(merge(threads_here(), 1, size(points) >= MANY_POINTS), work)
+  end subroutine gather_block
+
+  subroutine copy_part(self, part, parts)
+    class(block_copy), intent(inout) :: self
+    integer, intent(in) :: part, parts
+    integer :: first, j, last
+
+    call share(size(self%points), part, parts, first, last)
+    do j = first + 1, last + 1
+      call copy_column(self%alpha(:, self%points(j)), self%points, self%block(:, j))
+    end do
+  end subroutine copy_part
+
+  pure subroutine copy_column(column, points, copy)
+    real(dp), intent(in), contiguous :: column(:)
+    integer, intent(in), contiguous :: points(:)
+    real(dp), intent(inout), contiguous :: copy(:)
+    integer :: i
+
+    do i = 1, size(points)
+      copy(i) = column(points(i))
+    end do
+  end subroutine copy_column
 
   !> The problem without units.
   pure subroutine make_scaled(canonical, scaled)

@@ -19,7 +19,7 @@ module fuge_displacements
   !> Runs of columns from this length on are left to BLAS, where rounding does not matter.
   integer, parameter :: LONG_RUN = 8
   !> Threads share displacements with more coefficients than this, in groups of ROWS points.
-  real(dp), parameter :: SHARED = 2.0_dp**18
+  real(dp), parameter :: SHARED = 2.0_dp**17
   integer, parameter :: ROWS = 16
   !> Displacements are added at all points, or at open ones: one by one, or where they lie side by side together.
   integer, parameter :: ALL_POINTS = 0, POINT_BY_POINT = 1, IN_RUNS = 2
