@@ -340,7 +340,7 @@ contains
   subroutine add_part(self, part, parts)
     class(residual_work), intent(inout) :: self
     integer, intent(in) :: part, parts
-    integer :: first, j, last, waiting
+    integer :: first, last
 
     call share((size(self%points) + ROWS - 1)/ROWS, part, parts, first, last)
     first = ROWS*first + 1
