@@ -57,8 +57,9 @@ module fuge_initial_set
     real(dp), allocatable :: direction(:), change(:), elastic_change(:)
     !> Forces after the step, and what was added to them.
     real(dp), allocatable :: stepped(:), added(:)
-    !> Points at a stop.
-    logical, allocatable :: contact(:)
+    !> 1 at points at a stop, else 0, and their number.
+    real(dp), allocatable :: weight(:)
+    integer :: contacts = 0
     !> Sum of the squares of the slopes one step before; zero for a new start.
     real(dp) :: previous = 0.0_dp
     !> Length of the last step.
@@ -277,7 +278,7 @@ contains
     type(descent), intent(out) :: now
 
     allocate (now%force(n), now%displacement(n), now%gap(n), now%slope(n), now%direction(n), now%change(n), &
-              now%elastic_change(n), now%stepped(n), now%added(n), now%contact(n))
+              now%elastic_change(n), now%stepped(n), now%added(n), now%weight(n))
   end subroutine allocate_descent
 
   !> Gaps less their rigid part, and their distances from the stops.
@@ -287,12 +288,18 @@ contains
     integer, intent(in) :: state(:)
     type(descent), intent(inout) :: now
 
-    now%contact = state /= FUGE_OPEN
+    now%contacts = count(state /= FUGE_OPEN)
+    now%weight = real(abs(state), dp)
     now%gap = scaled%gap + now%displacement
-    now%slope = now%gap
-    where (state < FUGE_OPEN) now%slope = now%gap - scaled%upper
-    call subtract_rigid_motion(canonical, now%contact, now%slope, now%gap)
-    where (.not. now%contact) now%slope = 0.0_dp
+    if (canonical%plain) then
+      call subtract_rigid_motion(canonical, now%weight, now%contacts, now%gap)
+      now%slope = now%weight*now%gap
+    else
+      now%slope = now%gap
+      where (state < FUGE_OPEN) now%slope = now%gap - scaled%upper
+      call subtract_rigid_motion(canonical, now%weight, now%contacts, now%slope, now%gap)
+      where (state == FUGE_OPEN) now%slope = 0.0_dp
+    end if
   end subroutine find_slope
 
   !> The conjugate direction, the displacements by it, and the step along it to the least energy, if it `gains` any.
@@ -307,24 +314,42 @@ contains
 
     n = size(now%slope)
     gains = .false.
-    if (maxval(abs(now%slope)) <= ROUNDING*maxval(abs(now%gap))) return
+    if (largest_of(now%slope) <= ROUNDING*largest_of(now%gap)) return
     squares = ddot(n, now%slope, 1, now%slope, 1)
     if (.not. squares > 0.0_dp) return
     conjugacy = 0.0_dp
     if (now%previous > 0.0_dp) conjugacy = squares/now%previous
-    now%direction = merge(now%slope + conjugacy*now%direction, 0.0_dp, now%contact)
+    now%direction = now%weight*(now%slope + conjugacy*now%direction)
     now%previous = squares
     now%change = 0.0_dp
     call add_rough_product(canonical%alpha, scaled%factor, now%direction, now%change)
     products = products + 1
     now%elastic_change = now%change
-    call subtract_rigid_motion(canonical, now%contact, now%elastic_change)
+    call subtract_rigid_motion(canonical, now%weight, now%contacts, now%elastic_change)
     curvature = ddot(n, now%elastic_change, 1, now%direction, 1)
     if (.not. curvature > 0.0_dp) return
     step = ddot(n, now%slope, 1, now%direction, 1)/curvature
     gains = step > 0.0_dp
     if (gains) now%step = step
   end subroutine find_step
+
+  !> The largest magnitude.
+  pure function largest_of(values) result(most)
+    real(dp), intent(in), contiguous :: values(:)
+    real(dp) :: most
+    real(dp) :: most_of(4)
+    integer :: k, whole
+
+    most_of = 0.0_dp
+    whole = size(values) - modulo(size(values), 4)
+    do k = 1, whole, 4
+      most_of = max(most_of, abs(values(k:k + 3)))
+    end do
+    do k = whole + 1, size(values)
+      most_of(1) = max(most_of(1), abs(values(k)))
+    end do
+    most = maxval(most_of)
+  end function largest_of
 
   !> Take the step, exchange points and restore equilibrium; the displacements follow.
   subroutine take_descent_step(canonical, scaled, state, now)
@@ -336,22 +361,47 @@ contains
     logical :: joined
 
     now%stepped = now%force - now%step*now%direction
-    now%force = now%stepped
-    call exchange_points(scaled, canonical%excluded, now%gap, now%step, state, now%force, joined)
-    if (joined) now%previous = 0.0_dp
     stretch = 1.0_dp
     if (canonical%plain) then
-      ! Not zero at a few points only.
-      now%added = now%force - now%stepped
+      call exchange_plain_points(now%stepped, now%gap, now%step, state, now%force, now%added, joined)
       call stretch_forces(state, now%force, stretch)
     else
+      now%force = now%stepped
+      call exchange_points(scaled, canonical%excluded, now%gap, now%step, state, now%force, joined)
       call restore_equilibrium(canonical, scaled, state, now%force)
       now%added = now%force - now%stepped
     end if
+    if (joined) now%previous = 0.0_dp
     now%displacement = now%displacement - now%step*now%change
     call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
     now%displacement = stretch*now%displacement
   end subroutine take_descent_step
+
+  !> As `exchange_points` for the plain problem, from the forces after the step to `force`; `added` is their difference,
+  !> which is not zero at a few points only.
+  pure subroutine exchange_plain_points(stepped, gap, step, state, force, added, joined)
+    real(dp), intent(in), contiguous :: stepped(:), gap(:)
+    real(dp), intent(in) :: step
+    integer, intent(inout), contiguous :: state(:)
+    real(dp), intent(inout), contiguous :: force(:), added(:)
+    logical, intent(out) :: joined
+    integer :: k
+
+    joined = .false.
+    do k = 1, size(state)
+      force(k) = stepped(k)
+      added(k) = 0.0_dp
+      if (state(k) /= FUGE_OPEN .and. stepped(k) > 0.0_dp) cycle
+      state(k) = FUGE_OPEN
+      force(k) = 0.0_dp
+      if (gap(k) < 0.0_dp) then
+        state(k) = FUGE_AT_LOWER_STOP
+        force(k) = -step*gap(k)
+        joined = .true.
+      end if
+      added(k) = force(k) - stepped(k)
+    end do
+  end subroutine exchange_plain_points
 
   !> Points whose force no longer pushes at their stop open; open ones beyond a stop join it. `joined` if any did.
   pure subroutine exchange_points(scaled, excluded, gap, step, state, force, joined)
@@ -393,19 +443,18 @@ contains
   end function is_settled
 
   !> Subtract from displacements their least-squares rigid motion over the contact, from `other` (n) the same motion.
-  subroutine subtract_rigid_motion(canonical, contact, length, other)
+  !> `weight` (n) is 1 at the `contacts` points of the contact.
+  subroutine subtract_rigid_motion(canonical, weight, contacts, length, other)
     type(canonical_problem), intent(in) :: canonical
-    logical, intent(in) :: contact(:)
-    real(dp), intent(inout) :: length(:)
+    real(dp), intent(in), contiguous :: weight(:)
+    integer, intent(in) :: contacts
+    real(dp), intent(inout), contiguous :: length(:)
     real(dp), intent(inout), optional :: other(:)
-    real(dp) :: translation
 
     if (canonical%plain) then
-      translation = sum(length, mask=contact)/real(max(count(contact), 1), dp)
-      length = length - translation
-      if (present(other)) other = other - translation
+      length = length - ddot(size(length), weight, 1, length, 1)/real(max(contacts, 1), dp)
     else if (size(canonical%load) > 0) then
-      call subtract_rigid_modes(canonical%modes, contact, length, other)
+      call subtract_rigid_modes(canonical%modes, weight > 0.0_dp, length, other)
     end if
   end subroutine subtract_rigid_motion
 
