@@ -16,10 +16,10 @@ module fuge_initial_set
   public :: guess_initial_set
 
   !> At most this many iterations are made; one costs about as much as a few percent of a factorisation.
-  integer, parameter :: MOST_ITERATIONS = 12
-  !> The set has converged when fewer than 1/SETTLED of the contact points change, QUIET times in a row: once is not
-  !> enough on graded grids.
-  integer, parameter :: SETTLED = 64, QUIET = 2
+  integer, parameter :: MOST_ITERATIONS = 16
+  !> The set has converged when fewer than 1/SETTLED of the contact points change, and no more than FEW_CHANGES, QUIET
+  !> times in a row: once is not enough on graded grids. Another set costs some products.
+  integer, parameter :: SETTLED = 64, FEW_CHANGES = 3, QUIET = 2
   !> For the plain problem the set has not converged while more than 1/FEW_OPEN of the open points change: these may be
   !> few and far apart.
   integer, parameter :: FEW_OPEN = 8
@@ -438,7 +438,7 @@ contains
     integer :: changes
 
     changes = count(state /= before)
-    is_settled = changes*SETTLED < count(state /= FUGE_OPEN)
+    is_settled = changes*SETTLED < count(state /= FUGE_OPEN) .and. changes <= FEW_CHANGES
     if (canonical%plain) is_settled = is_settled .and. changes*FEW_OPEN <= count(state == FUGE_OPEN)
   end function is_settled
 
