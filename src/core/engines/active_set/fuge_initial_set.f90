@@ -30,8 +30,8 @@ module fuge_initial_set
   !> Resistance to a mode below this fraction of that of all points together is not used.
   real(dp), parameter :: HARDLY_RESISTED = 1.0e-12_dp
   !> For this many points or more, with less than this fraction of them in contact, of which fewer than 1/CALM change,
-  !> their block of alpha is worth its copy.
-  integer, parameter :: WORTH_A_BLOCK = 128, CALM = 8
+  !> their block of alpha is worth its copy; so are those of the points that have joined since, NARROW_ROUNDS in all.
+  integer, parameter :: WORTH_A_BLOCK = 128, CALM = 5, NARROW_ROUNDS = 3
   !> Threads share the copy of the block of as many points as this.
   integer, parameter :: MANY_POINTS = 384
   real(dp), parameter :: NARROW = 0.6_dp
@@ -105,11 +105,10 @@ contains
     logical, intent(in) :: may_narrow
     integer, intent(inout) :: state(:), products
     type(descent), intent(inout) :: now
-    integer :: before(size(state)), contacts, iteration, quiet_for
-    logical :: gains, narrows
+    integer :: before(size(state)), contacts, iteration, quiet_for, round
+    logical :: gains
 
     quiet_for = 0
-    narrows = may_narrow
     do iteration = 1, limit
       call find_slope(canonical, scaled, state, now)
       call find_step(canonical, scaled, now, gains, products)
@@ -122,15 +121,17 @@ contains
       end if
       quiet_for = merge(quiet_for + 1, 0, is_settled(canonical, before, state))
       if (quiet_for >= QUIET) exit
-      if (.not. narrows) cycle
+      if (.not. may_narrow) cycle
       contacts = count(state /= FUGE_OPEN)
       if (contacts > NARROW*size(state) .or. count(state /= before)*CALM > contacts) cycle
-      call descend_on_contact(canonical, scaled, state, now, products)
-      before = state
-      call find_slope(canonical, scaled, state, now)
-      call take_descent_step(canonical, scaled, state, now)
-      if (is_settled(canonical, before, state)) exit
-      narrows = .false.
+      do round = 1, NARROW_ROUNDS
+        call descend_on_contact(canonical, scaled, state, now, products)
+        before = state
+        call find_slope(canonical, scaled, state, now)
+        call take_descent_step(canonical, scaled, state, now)
+        if (is_settled(canonical, before, state)) exit
+      end do
+      exit
     end do
   end subroutine descend
 
