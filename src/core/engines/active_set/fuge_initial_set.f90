@@ -359,12 +359,13 @@ contains
     integer, intent(inout) :: state(:)
     type(descent), intent(inout) :: now
     real(dp) :: stretch
-    logical :: joined
+    logical :: exchanged, joined
 
     now%stepped = now%force - now%step*now%direction
     stretch = 1.0_dp
+    exchanged = .true.
     if (canonical%plain) then
-      call exchange_plain_points(now%stepped, now%gap, now%step, state, now%force, now%added, joined)
+      call exchange_plain_points(now%stepped, now%gap, now%step, state, now%force, now%added, exchanged, joined)
       call stretch_forces(state, now%force, stretch)
     else
       now%force = now%stepped
@@ -374,20 +375,21 @@ contains
     end if
     if (joined) now%previous = 0.0_dp
     now%displacement = now%displacement - now%step*now%change
-    call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
+    if (exchanged) call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
     now%displacement = stretch*now%displacement
   end subroutine take_descent_step
 
   !> As `exchange_points` for the plain problem, from the forces after the step to `force`; `added` is their difference,
-  !> which is not zero at a few points only.
-  pure subroutine exchange_plain_points(stepped, gap, step, state, force, added, joined)
+  !> which is not zero at a few points only, those `exchanged`, if any were.
+  pure subroutine exchange_plain_points(stepped, gap, step, state, force, added, exchanged, joined)
     real(dp), intent(in), contiguous :: stepped(:), gap(:)
     real(dp), intent(in) :: step
     integer, intent(inout), contiguous :: state(:)
     real(dp), intent(inout), contiguous :: force(:), added(:)
-    logical, intent(out) :: joined
+    logical, intent(out) :: exchanged, joined
     integer :: k
 
+    exchanged = .false.
     joined = .false.
     do k = 1, size(state)
       force(k) = stepped(k)
@@ -401,6 +403,7 @@ contains
         joined = .true.
       end if
       added(k) = force(k) - stepped(k)
+      exchanged = exchanged .or. abs(added(k)) > 0.0_dp
     end do
   end subroutine exchange_plain_points
 
