@@ -1,7 +1,7 @@
 !> The survey of an influence matrix in one pass: whether all of it is usable, its extremes, how symmetric it is, and
 !> whether any pair of points is unstable.
 !>
-!> The pass reads each coefficient once, in tiles together with the tile on the other side of the diagonal. Most matrices
+!> The pass reads each coefficient once, in tiles together with the one on the other side of the diagonal. Most matrices
 !> are symmetric to the last bit: then the half below the diagonal is all there is to look at. An operator keeps the
 !> result, so that a solve has nothing left to check.
 module fuge_matrix_survey

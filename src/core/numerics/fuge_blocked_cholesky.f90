@@ -16,7 +16,7 @@ module fuge_blocked_cholesky
   !> Columns of a block of the factor, and of right-hand sides.
   integer, parameter :: BLOCK = 128, RIGHT_SIDES = 32
 
-  !> What follows the factor of the block of columns from `first` on: the rows below it, then the square tiles behind it.
+  !> What follows the factor of the columns from `first` on: the rows below them, then the square tiles behind them.
   type, extends(work_in_parts) :: trailing_work
     real(dp), pointer, contiguous :: matrix(:, :) => null()
     integer :: first = 1

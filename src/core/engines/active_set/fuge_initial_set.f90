@@ -91,17 +91,16 @@ contains
     if (.not. scaled%factor > 0.0_dp) return
     fallback = state
     call start_descent(canonical, scaled, state, now, products)
-    call descend(canonical, scaled, MOST_ITERATIONS, size(state) >= WORTH_A_BLOCK, state, now, products)
+    call descend(canonical, scaled, size(state) >= WORTH_A_BLOCK, state, now, products)
     ! Nothing touched from the start, or numbers have overflowed.
     if (.not. (any(state /= FUGE_OPEN) .and. all(abs(now%force) <= huge(1.0_dp)))) state = fallback
   end subroutine guess_initial_set
 
   !> Descend until the set has converged. With `may_narrow` most of that is done with the block of alpha of the points
   !> in contact, once few of them change.
-  recursive subroutine descend(canonical, scaled, limit, may_narrow, state, now, products)
+  recursive subroutine descend(canonical, scaled, may_narrow, state, now, products)
     type(canonical_problem), intent(in) :: canonical
     type(scaled_problem), intent(in) :: scaled
-    integer, intent(in) :: limit
     logical, intent(in) :: may_narrow
     integer, intent(inout) :: state(:), products
     type(descent), intent(inout) :: now
@@ -109,7 +108,7 @@ contains
     logical :: gains
 
     quiet_for = 0
-    do iteration = 1, limit
+    do iteration = 1, MOST_ITERATIONS
       call find_slope(canonical, scaled, state, now)
       call find_step(canonical, scaled, now, gains, products)
       if (.not. gains) exit
@@ -150,7 +149,11 @@ contains
 
     m = size(points)
     allocate (block(m, m), stat=stat)
-    if (stat /= 0) return
+    if (stat /= 0) then
+      now%direction = 0.0_dp
+      now%change = 0.0_dp
+      return
+    end if
     points = pack([(j, j=1, size(state))], state /= FUGE_OPEN)
     call gather_block(canonical%alpha, points, block)
     part%alpha => block
@@ -169,8 +172,11 @@ contains
     there%displacement = now%displacement(points)
     there%direction = now%direction(points)
     there%previous = now%previous
+    now%direction = 0.0_dp
+    now%change = 0.0_dp
+    now%previous = 0.0_dp
     there%step = now%step
-    call descend(part, scaled_part, MOST_ITERATIONS, .false., states, there, products)
+    call descend(part, scaled_part, .false., states, there, products)
     now%added = 0.0_dp
     now%added(points) = there%force - now%force(points)
     now%force(points) = there%force
@@ -178,9 +184,6 @@ contains
     state(points) = states
     call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
     products = products + 1
-    now%direction = 0.0_dp
-    now%change = 0.0_dp
-    now%previous = 0.0_dp
   end subroutine descend_on_contact
 
   !> The block of alpha of some points; threads share the columns if there are many.
