@@ -4,15 +4,16 @@
 !>
 !> The bound knows the contact set. It reads the matrix once, as a check has to, gathers the contact block, solves it
 !> with one `dposv`, and multiplies the columns of the contact once, for gaps and certificate together. A cold solve
-!> makes a new operator and a new solver; a warm one follows a solve at a load that was 1 % smaller, and is compared
-!> with the `dposv` alone. Both sides of a ratio are measured alternately, and the fastest run of each counts. Writes
-!> rows of a Markdown table, with KIND (quartic or random) and N those of one problem only: run quartic 4096 with 1 and
-!> with 2 threads of BLAS.
+!> makes a new operator and a new solver; a warm one follows a solve at a load that was 1 % smaller. Both are compared
+!> with the `dposv` alone too, and cold solves with two threads of fuge with those with one. All sides of a ratio are
+!> measured alternately, and the fastest run of each counts. Writes rows of a Markdown table, with KIND (quartic or
+!> random) and N those of one problem only. Threads of BLAS compete with those of fuge: OPENBLAS_NUM_THREADS=1.
 program bound_dense
   use, intrinsic :: iso_fortran_env, only: int64, output_unit
   use bench_lapack, only: dposv
   use bench_problems, only: bench_problem, add_matrix, contact_problem, make_known, make_random, uniform_edges, whole
-  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver, FUGE_MEAN
+  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
+    fuge_solver, FUGE_MEAN
   implicit none
 
   !> Seconds for the repetitions of one row, and the fewest of them.
@@ -20,6 +21,9 @@ program bound_dense
   integer, parameter :: FEWEST = 5
   !> A sample is as many runs as take this long in seconds, so that the clock is fine enough.
   real(dp), parameter :: SAMPLE = 2.0e-5_dp
+  !> Solves of at least this many points have work for two threads, and this ratio of their times is wanted.
+  integer, parameter :: MANY_POINTS = 800
+  real(dp), parameter :: WANTED_TWO_THREADS = 0.62_dp
   !> The load step of the warm start.
   real(dp), parameter :: STEP = 1.01_dp
   integer, parameter :: QUARTICS(4) = [64, 256, 1024, 4096], RANDOMS(4) = [50, 200, 800, 2000]
@@ -84,12 +88,12 @@ contains
     type(fuge_problem) :: contact
     type(fuge_solution) :: solution
     type(bound_arrays) :: arrays
-    type(timing) :: bound, solve
-    integer :: run, repetition
+    type(timing) :: bound, block, solve, shared
+    integer :: run, repetition, info_lapack
     integer(int64) :: began
 
     contact = contact_problem(problem)
-    call solve_cold(problem, contact, solution)
+    call solve_cold(problem, contact, 1, solution)
     call prepare_bound(solution%force, arrays)
     call system_clock(began)
     run = 0
@@ -101,14 +105,28 @@ contains
       call finish(bound)
       call start(solve)
       do repetition = 1, solve%batch
-        call solve_cold(problem, contact, solution)
+        call solve_cold(problem, contact, 1, solution)
       end do
       call finish(solve)
+      call start(shared)
+      do repetition = 1, shared%batch
+        call solve_cold(problem, contact, 2, solution)
+      end do
+      call finish(shared)
+      call gather(problem, arrays)
+      call start(block)
+      call dposv('L', size(arrays%set), 1, arrays%block, size(arrays%set), arrays%answer, size(arrays%set), info_lapack)
+      call finish(block)
+      block%batch = 1
       run = run + 1
       if (run < FEWEST) cycle
       if (seconds_since(began) > PATIENCE) exit
     end do
     call write_row(name//', cold', bound%best, solve%best, wanted)
+    call write_row(name//', cold over dposv', block%best, solve%best, wanted_over_dposv(name))
+    if (problem%points() >= MANY_POINTS) then
+      call write_row(name//', cold, two threads over one', solve%best, shared%best, WANTED_TWO_THREADS)
+    end if
   end subroutine measure_cold
 
   !> A solve after one at a load that was 1 % smaller, with the same operator, over the `dposv` alone.
@@ -181,16 +199,29 @@ contains
     call write_row('quartic '//whole(FEW_POINTS)//', warm, over the time wanted', WANTED_FEW, solve%best, 1.0_dp)
   end subroutine measure_few
 
-  subroutine solve_cold(problem, contact, solution)
+  !> The multiple of one `dposv` that is wanted of a cold solve; 0 for none.
+  pure function wanted_over_dposv(name) result(wanted)
+    character(len=*), intent(in) :: name
+    real(dp) :: wanted
+
+    wanted = 0.0_dp
+    if (name == 'quartic 64') wanted = 3.0_dp
+    if (name == 'random 2000') wanted = 3.5_dp
+  end function wanted_over_dposv
+
+  subroutine solve_cold(problem, contact, threads, solution)
     type(bench_problem), intent(in), target :: problem
     type(fuge_problem), intent(in) :: contact
+    integer, intent(in) :: threads
     type(fuge_solution), intent(inout) :: solution
     type(fuge_dense_operator) :: operator
     type(fuge_solver) :: solver
+    type(fuge_options) :: options
     type(fuge_info) :: info
 
-    call operator%set(problem%alpha, info)
-    if (.not. info%failed()) call solver%solve(operator, contact, solution, info)
+    options%threads = threads
+    call operator%set(problem%alpha, info, threads)
+    if (.not. info%failed()) call solver%solve(operator, contact, solution, info, options)
     if (info%failed()) error stop 'not solved'
   end subroutine solve_cold
 

@@ -10,7 +10,8 @@ module fuge_matrix_operator
   use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
-    FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW
+    FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW
+  use fuge_threads, only: run_in_parts, share, thread_team, threads_here, usable_threads, work_in_parts
   implicit none
   private
 
@@ -18,6 +19,10 @@ module fuge_matrix_operator
   real(dp), parameter :: ALIKE = 1.0e-3_dp
   !> A compliance up to this many units in the last place of its terms is rounding.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
+
+  !> Threads share a product with more coefficients than this, in groups of ROWS rows.
+  real(dp), parameter :: SHARED = 2.0_dp**17
+  integer, parameter :: ROWS = 16
 
   !> Largest asymmetry taken for rounding, relative to the range of the coefficients.
   real(dp), parameter :: SYMMETRY_TOLERANCE = 1.0e-10_dp
@@ -41,21 +46,33 @@ module fuge_matrix_operator
     procedure :: stamp
   end type fuge_dense_operator
 
+  !> A product, of which each part has some rows; `magnitude` is associated if it is wanted too.
+  type, extends(work_in_parts) :: product_in_rows
+    real(dp), pointer, contiguous :: alpha(:, :) => null()
+    real(dp), pointer :: force(:) => null(), displacement(:) => null(), magnitude(:) => null()
+    real(dp) :: datum = 0.0_dp
+  contains
+    procedure :: do_part => multiply_part
+  end type product_in_rows
+
 contains
 
   !> Point to `alpha` as the influence matrix.
   !>
   !> `alpha` is (n, n), or (lda, n) with lda > n where the first n rows count; length per force. It is
   !> not copied: declare it `target`, and keep it unchanged until the operator is set again. After a change, even
-  !> of one coefficient, set it again: solvers keep the factor of the matrix from solve to solve until then.
-  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW,
+  !> of one coefficient, set it again: solvers keep the factor of the matrix from solve to solve until then. Up to
+  !> `threads` threads (default 1; 0: as many as there are cores) share the one pass over the matrix, which checks it.
+  !> Errors: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW, FUGE_ERR_OPTION,
   !> FUGE_ERR_POINTER for a section that is not contiguous; they leave the operator as it was.
-  subroutine set(self, alpha, info)
+  subroutine set(self, alpha, info, threads)
     class(fuge_dense_operator), intent(inout) :: self
     real(dp), intent(in), target :: alpha(:, :)
     type(fuge_info), intent(out) :: info
+    integer, intent(in), optional :: threads
     real(dp), pointer, contiguous :: matrix(:, :)
     type(matrix_survey) :: survey
+    type(thread_team) :: team
 
     if (.not. is_contiguous(alpha)) then
       call report(info, FUGE_ERR_POINTER, 'alpha is a section with gaps between its columns: pass the whole ' &
@@ -68,10 +85,16 @@ contains
       call report(info, FUGE_ERR_SIZE, 'alpha has '//text(size(alpha, 1))//' rows and '//text(size(alpha, 2)) &
         //' columns: its leading dimension must be at least n')
     end if
+    if (present(threads)) then
+      if (threads < 0) call report(info, FUGE_ERR_OPTION, 'threads = '//text(threads) &
+                                   //' is negative: use 0 for all cores, 1 for one thread, or more')
+    end if
     if (info%failed()) return
     ! By its address, because the compiler does not know that alpha is contiguous.
     call c_f_pointer(c_loc(alpha(1, 1)), matrix, shape(alpha))
+    if (present(threads)) call team%begin(merge(threads, usable_threads(), threads > 0))
     call survey_matrix(matrix, survey)
+    call team%end()
     call judge_survey(matrix, survey, info)
     if (info%failed()) return
     self%alpha => matrix
@@ -125,27 +148,101 @@ contains
     real(dp), intent(in) :: force(:)
     real(dp), intent(out) :: displacement(:)
     integer, intent(out) :: status
-    real(dp) :: datum
-    integer :: columns(4), j, n, waiting
 
-    n = self%points()
-    datum = self%datum()
+    call multiply(self, force, displacement)
+    status = FUGE_DONE
+  end subroutine apply
+
+  !> The displacements by forces, and their magnitudes; threads share the rows if there are many.
+  subroutine multiply(self, force, displacement, magnitude)
+    class(fuge_dense_operator), intent(in) :: self
+    real(dp), intent(in), target :: force(:)
+    real(dp), intent(inout), target :: displacement(:)
+    real(dp), intent(inout), target, optional :: magnitude(:)
+    type(product_in_rows) :: work
+    integer :: parts
+
+    work%alpha => self%alpha
+    work%datum = self%datum()
+    work%force => force
+    work%displacement => displacement
+    if (present(magnitude)) work%magnitude => magnitude
+    parts = 1
+    if (real(size(force), dp)*real(size(force), dp) > SHARED) then
+      if (real(size(force), dp)*real(count(abs(force) > 0.0_dp), dp) > SHARED) parts = threads_here()
+    end if
+    call run_in_parts(parts, work)
+  end subroutine multiply
+
+  !> The rows of one part.
+  subroutine multiply_part(self, part, parts)
+    class(product_in_rows), intent(inout) :: self
+    integer, intent(in) :: part, parts
+    integer :: first, last, n
+
+    n = size(self%force)
+    call share((n + ROWS - 1)/ROWS, part, parts, first, last)
+    first = ROWS*first + 1
+    last = min(ROWS*(last + 1), n)
+    if (first > last) return
+    if (associated(self%magnitude)) then
+      call add_rows_and_terms(self%alpha, self%datum, self%force, first, last, self%displacement(first:last), &
+                              self%magnitude(first:last))
+    else
+      call add_rows(self%alpha, self%datum, self%force, first, last, self%displacement(first:last))
+    end if
+  end subroutine multiply_part
+
+  !> The `displacement` at the points `first` to `last`.
+  pure subroutine add_rows(alpha, datum, force, first, last, displacement)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum, force(:)
+    integer, intent(in) :: first, last
+    real(dp), intent(out) :: displacement(:)
+    integer :: columns(4), j, waiting
+
     displacement = 0.0_dp
     waiting = 0
-    do j = 1, n
+    do j = 1, size(force)
       if (.not. abs(force(j)) > 0.0_dp) cycle
       waiting = waiting + 1
       columns(waiting) = j
       if (waiting < 4) cycle
-      call add_four(self%alpha(:n, columns(1)), self%alpha(:n, columns(2)), self%alpha(:n, columns(3)), &
-                    self%alpha(:n, columns(4)), datum, force(columns), displacement)
+      call add_four(alpha(first:last, columns(1)), alpha(first:last, columns(2)), alpha(first:last, columns(3)), &
+                    alpha(first:last, columns(4)), datum, force(columns), displacement)
       waiting = 0
     end do
     do j = 1, waiting
-      displacement = displacement + (self%alpha(:n, columns(j)) - datum)*force(columns(j))
+      displacement = displacement + (alpha(first:last, columns(j)) - datum)*force(columns(j))
     end do
-    status = FUGE_DONE
-  end subroutine apply
+  end subroutine add_rows
+
+  !> As `add_rows`, with the magnitudes, two columns at a time.
+  pure subroutine add_rows_and_terms(alpha, datum, force, first, last, displacement, magnitude)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum, force(:)
+    integer, intent(in) :: first, last
+    real(dp), intent(out) :: displacement(:), magnitude(:)
+    integer :: j, waiting
+
+    displacement = 0.0_dp
+    magnitude = 0.0_dp
+    waiting = 0
+    do j = 1, size(force)
+      if (.not. abs(force(j)) > 0.0_dp) cycle
+      if (waiting > 0) then
+        call add_two(alpha(first:last, waiting), alpha(first:last, j), datum, force(waiting), force(j), displacement, &
+                     magnitude)
+        waiting = 0
+      else
+        waiting = j
+      end if
+    end do
+    if (waiting > 0) then
+      displacement = displacement + (alpha(first:last, waiting) - datum)*force(waiting)
+      magnitude = magnitude + abs((alpha(first:last, waiting) - datum)*force(waiting))
+    end if
+  end subroutine add_rows_and_terms
 
   !> Add the terms of four columns to displacements.
   pure subroutine add_four(a, b, c, d, datum, force, displacement)
@@ -215,32 +312,14 @@ contains
     move_alike = all(abs(one - other) <= ALIKE*max(maxval(abs(one)), maxval(abs(other))))
   end function move_alike
 
-  !> As `apply` and `magnitude`, in one pass over the columns of the points with force, two at a time.
+  !> As `apply` and `magnitude`, in one pass over the columns of the points with force.
   subroutine dense_apply_with_magnitude(self, force, displacement, magnitude, status)
     class(fuge_dense_operator), intent(in) :: self
     real(dp), intent(in) :: force(:)
     real(dp), intent(out) :: displacement(:), magnitude(:)
     integer, intent(out) :: status
-    integer :: j, n, waiting
 
-    n = self%points()
-    displacement = 0.0_dp
-    magnitude = 0.0_dp
-    waiting = 0
-    do j = 1, n
-      if (.not. abs(force(j)) > 0.0_dp) cycle
-      if (waiting > 0) then
-        call add_two(self%alpha(:n, waiting), self%alpha(:n, j), self%datum(), force(waiting), force(j), displacement, &
-                     magnitude)
-        waiting = 0
-      else
-        waiting = j
-      end if
-    end do
-    if (waiting > 0) then
-      displacement = displacement + (self%alpha(:n, waiting) - self%datum())*force(waiting)
-      magnitude = magnitude + abs((self%alpha(:n, waiting) - self%datum())*force(waiting))
-    end if
+    call multiply(self, force, displacement, magnitude)
     status = FUGE_DONE
   end subroutine dense_apply_with_magnitude
 

@@ -156,7 +156,7 @@ contains
 
   !> Refuse forces that would have to grow without bound (FUGE_ERR_NOT_DEFINITE, or FUGE_ERR_NO_EQUILIBRIUM where all
   !> motions are prescribed and the forces are equal).
-  pure subroutine refuse_unbounded(canonical, solution, info)
+  subroutine refuse_unbounded(canonical, solution, info)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     type(fuge_info), intent(inout) :: info

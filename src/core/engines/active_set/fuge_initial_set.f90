@@ -9,16 +9,17 @@ module fuge_initial_set
   use fuge_displacements, only: add_rough_product
   use fuge_kinds, only: dp
   use fuge_lapack, only: ddot, dgesv
+  use fuge_threads, only: run_in_parts, share, threads_here, work_in_parts
   implicit none
   private
 
   public :: guess_initial_set
 
   !> At most this many iterations are made; one costs about as much as a few percent of a factorisation.
-  integer, parameter :: MOST_ITERATIONS = 12
-  !> The set has converged when fewer than 1/SETTLED of the contact points change, QUIET times in a row: once is not
-  !> enough on graded grids.
-  integer, parameter :: SETTLED = 64, QUIET = 2
+  integer, parameter :: MOST_ITERATIONS = 16
+  !> The set has converged when fewer than 1/SETTLED of the contact points change, and no more than FEW_CHANGES, QUIET
+  !> times in a row: once is not enough on graded grids. Another set costs some products.
+  integer, parameter :: SETTLED = 64, FEW_CHANGES = 3, QUIET = 2
   !> For the plain problem the set has not converged while more than 1/FEW_OPEN of the open points change: these may be
   !> few and far apart.
   integer, parameter :: FEW_OPEN = 8
@@ -28,6 +29,12 @@ module fuge_initial_set
   real(dp), parameter :: ROUNDING = 1.0e-13_dp
   !> Resistance to a mode below this fraction of that of all points together is not used.
   real(dp), parameter :: HARDLY_RESISTED = 1.0e-12_dp
+  !> For this many points or more, with less than this fraction of them in contact, of which fewer than 1/CALM change,
+  !> their block of alpha is worth its copy; so are those of the points that have joined since, NARROW_ROUNDS in all.
+  integer, parameter :: WORTH_A_BLOCK = 128, CALM = 5, NARROW_ROUNDS = 3
+  !> Threads share the copy of the block of as many points as this.
+  integer, parameter :: MANY_POINTS = 384
+  real(dp), parameter :: NARROW = 0.6_dp
   !> A play beyond this many times the length of the problem counts as unlimited.
   real(dp), parameter :: FAR = 1.0e8_dp
 
@@ -50,11 +57,22 @@ module fuge_initial_set
     real(dp), allocatable :: direction(:), change(:), elastic_change(:)
     !> Forces after the step, and what was added to them.
     real(dp), allocatable :: stepped(:), added(:)
-    !> Points at a stop.
-    logical, allocatable :: contact(:)
+    !> 1 at points at a stop, else 0, and their number.
+    real(dp), allocatable :: weight(:)
+    integer :: contacts = 0
     !> Sum of the squares of the slopes one step before; zero for a new start.
     real(dp) :: previous = 0.0_dp
+    !> Length of the last step.
+    real(dp) :: step = 0.0_dp
   end type descent
+
+  !> A block of alpha that is copied, of which each part has some columns.
+  type, extends(work_in_parts) :: block_copy
+    real(dp), pointer, contiguous :: alpha(:, :) => null(), block(:, :) => null()
+    integer, pointer, contiguous :: points(:) => null()
+  contains
+    procedure :: do_part => copy_part
+  end type block_copy
 
 contains
 
@@ -67,30 +85,141 @@ contains
     integer, intent(inout) :: state(:), products
     type(scaled_problem) :: scaled
     type(descent) :: now
-    integer :: fallback(size(state)), before(size(state)), iteration, quiet_for
-    real(dp) :: step
+    integer :: fallback(size(state))
 
     call make_scaled(canonical, scaled)
     if (.not. scaled%factor > 0.0_dp) return
     fallback = state
     call start_descent(canonical, scaled, state, now, products)
+    call descend(canonical, scaled, size(state) >= WORTH_A_BLOCK, state, now, products)
+    ! Nothing touched from the start, or numbers have overflowed.
+    if (.not. (any(state /= FUGE_OPEN) .and. all(abs(now%force) <= huge(1.0_dp)))) state = fallback
+  end subroutine guess_initial_set
+
+  !> Descend until the set has converged. With `may_narrow` most of that is done with the block of alpha of the points
+  !> in contact, once few of them change.
+  recursive subroutine descend(canonical, scaled, may_narrow, state, now, products)
+    type(canonical_problem), intent(in) :: canonical
+    type(scaled_problem), intent(in) :: scaled
+    logical, intent(in) :: may_narrow
+    integer, intent(inout) :: state(:), products
+    type(descent), intent(inout) :: now
+    integer :: before(size(state)), contacts, iteration, quiet_for, round
+    logical :: gains
+
     quiet_for = 0
     do iteration = 1, MOST_ITERATIONS
       call find_slope(canonical, scaled, state, now)
-      call find_step(canonical, scaled, now, step, products)
-      if (.not. step > 0.0_dp) exit
+      call find_step(canonical, scaled, now, gains, products)
+      if (.not. gains) exit
       before = state
-      call take_descent_step(canonical, scaled, step, state, now)
+      call take_descent_step(canonical, scaled, state, now)
       if (.not. any(state /= FUGE_OPEN)) then
         state = before
         exit
       end if
       quiet_for = merge(quiet_for + 1, 0, is_settled(canonical, before, state))
       if (quiet_for >= QUIET) exit
+      if (.not. may_narrow) cycle
+      contacts = count(state /= FUGE_OPEN)
+      if (contacts > NARROW*size(state) .or. count(state /= before)*CALM > contacts) cycle
+      do round = 1, NARROW_ROUNDS
+        call descend_on_contact(canonical, scaled, state, now, products)
+        before = state
+        call find_slope(canonical, scaled, state, now)
+        call take_descent_step(canonical, scaled, state, now)
+        if (is_settled(canonical, before, state)) exit
+      end do
+      exit
     end do
-    ! Nothing touched from the start, or numbers have overflowed.
-    if (.not. (any(state /= FUGE_OPEN) .and. all(abs(now%force) <= huge(step)))) state = fallback
-  end subroutine guess_initial_set
+  end subroutine descend
+
+  !> Descend with the points in contact only, which may open, and find the displacements of all points by what has been
+  !> added to the forces. The direction is zero on return.
+  recursive subroutine descend_on_contact(canonical, scaled, state, now, products)
+    type(canonical_problem), intent(in) :: canonical
+    type(scaled_problem), intent(in) :: scaled
+    integer, intent(inout) :: state(:), products
+    type(descent), intent(inout) :: now
+    type(canonical_problem) :: part
+    type(scaled_problem) :: scaled_part
+    type(descent) :: there
+    real(dp), allocatable, target :: block(:, :)
+    integer :: points(count(state /= FUGE_OPEN)), states(size(points)), j, m, stat
+
+    m = size(points)
+    allocate (block(m, m), stat=stat)
+    if (stat /= 0) then
+      now%direction = 0.0_dp
+      now%change = 0.0_dp
+      return
+    end if
+    points = pack([(j, j=1, size(state))], state /= FUGE_OPEN)
+    call gather_block(canonical%alpha, points, block)
+    part%alpha => block
+    part%plain = canonical%plain
+    part%modes = canonical%modes(points, :)
+    part%load = canonical%load
+    part%excluded = canonical%excluded(points)
+    scaled_part%gap = scaled%gap(points)
+    scaled_part%upper = scaled%upper(points)
+    scaled_part%tied = scaled%tied(points)
+    scaled_part%load = scaled%load
+    scaled_part%factor = scaled%factor
+    states = state(points)
+    call allocate_descent(m, there)
+    there%force = now%force(points)
+    there%displacement = now%displacement(points)
+    there%direction = now%direction(points)
+    there%previous = now%previous
+    now%direction = 0.0_dp
+    now%change = 0.0_dp
+    now%previous = 0.0_dp
+    there%step = now%step
+    call descend(part, scaled_part, .false., states, there, products)
+    now%added = 0.0_dp
+    now%added(points) = there%force - now%force(points)
+    now%force(points) = there%force
+    now%step = there%step
+    state(points) = states
+    call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
+    products = products + 1
+  end subroutine descend_on_contact
+
+  !> The block of alpha of some points; threads share the columns if there are many.
+  subroutine gather_block(alpha, points, block)
+    real(dp), intent(in), target, contiguous :: alpha(:, :)
+    integer, intent(in), target, contiguous :: points(:)
+    real(dp), intent(inout), target, contiguous :: block(:, :)
+    type(block_copy) :: work
+
+    work%alpha => alpha
+    work%points => points
+    work%block => block
+    call run_in_parts(merge(threads_here(), 1, size(points) >= MANY_POINTS), work)
+  end subroutine gather_block
+
+  subroutine copy_part(self, part, parts)
+    class(block_copy), intent(inout) :: self
+    integer, intent(in) :: part, parts
+    integer :: first, j, last
+
+    call share(size(self%points), part, parts, first, last)
+    do j = first + 1, last + 1
+      call copy_column(self%alpha(:, self%points(j)), self%points, self%block(:, j))
+    end do
+  end subroutine copy_part
+
+  pure subroutine copy_column(column, points, copy)
+    real(dp), intent(in), contiguous :: column(:)
+    integer, intent(in), contiguous :: points(:)
+    real(dp), intent(inout), contiguous :: copy(:)
+    integer :: i
+
+    do i = 1, size(points)
+      copy(i) = column(points(i))
+    end do
+  end subroutine copy_column
 
   !> The problem without units.
   pure subroutine make_scaled(canonical, scaled)
@@ -132,8 +261,7 @@ contains
     integer :: n
 
     n = size(state)
-    allocate (now%force(n), now%displacement(n), now%gap(n), now%slope(n), now%direction(n), now%change(n), &
-              now%elastic_change(n), now%stepped(n), now%added(n), now%contact(n))
+    call allocate_descent(n, now)
     if (canonical%plain) then
       state = FUGE_AT_LOWER_STOP
       now%force = 1.0_dp/real(n, dp)
@@ -149,6 +277,14 @@ contains
     products = products + 1
   end subroutine start_descent
 
+  pure subroutine allocate_descent(n, now)
+    integer, intent(in) :: n
+    type(descent), intent(out) :: now
+
+    allocate (now%force(n), now%displacement(n), now%gap(n), now%slope(n), now%direction(n), now%change(n), &
+              now%elastic_change(n), now%stepped(n), now%added(n), now%weight(n))
+  end subroutine allocate_descent
+
   !> Gaps less their rigid part, and their distances from the stops.
   subroutine find_slope(canonical, scaled, state, now)
     type(canonical_problem), intent(in) :: canonical
@@ -156,70 +292,123 @@ contains
     integer, intent(in) :: state(:)
     type(descent), intent(inout) :: now
 
-    now%contact = state /= FUGE_OPEN
+    now%contacts = count(state /= FUGE_OPEN)
+    now%weight = real(abs(state), dp)
     now%gap = scaled%gap + now%displacement
-    now%slope = now%gap
-    where (state < FUGE_OPEN) now%slope = now%gap - scaled%upper
-    call subtract_rigid_motion(canonical, now%contact, now%slope, now%gap)
-    where (.not. now%contact) now%slope = 0.0_dp
+    if (canonical%plain) then
+      call subtract_rigid_motion(canonical, now%weight, now%contacts, now%gap)
+      now%slope = now%weight*now%gap
+    else
+      now%slope = now%gap
+      where (state < FUGE_OPEN) now%slope = now%gap - scaled%upper
+      call subtract_rigid_motion(canonical, now%weight, now%contacts, now%slope, now%gap)
+      where (state == FUGE_OPEN) now%slope = 0.0_dp
+    end if
   end subroutine find_slope
 
-  !> The conjugate direction, the displacements by it, and the step along it to the least energy; zero if there is
-  !> nothing to gain.
-  subroutine find_step(canonical, scaled, now, step, products)
+  !> The conjugate direction, the displacements by it, and the step along it to the least energy, if it `gains` any.
+  subroutine find_step(canonical, scaled, now, gains, products)
     type(canonical_problem), intent(in) :: canonical
     type(scaled_problem), intent(in) :: scaled
     type(descent), intent(inout) :: now
-    real(dp), intent(out) :: step
+    logical, intent(out) :: gains
     integer, intent(inout) :: products
-    real(dp) :: curvature, conjugacy, squares
+    real(dp) :: curvature, conjugacy, squares, step
     integer :: n
 
     n = size(now%slope)
-    step = 0.0_dp
-    if (maxval(abs(now%slope)) <= ROUNDING*maxval(abs(now%gap))) return
+    gains = .false.
+    if (largest_of(now%slope) <= ROUNDING*largest_of(now%gap)) return
     squares = ddot(n, now%slope, 1, now%slope, 1)
     if (.not. squares > 0.0_dp) return
     conjugacy = 0.0_dp
     if (now%previous > 0.0_dp) conjugacy = squares/now%previous
-    now%direction = merge(now%slope + conjugacy*now%direction, 0.0_dp, now%contact)
+    now%direction = now%weight*(now%slope + conjugacy*now%direction)
     now%previous = squares
     now%change = 0.0_dp
     call add_rough_product(canonical%alpha, scaled%factor, now%direction, now%change)
     products = products + 1
     now%elastic_change = now%change
-    call subtract_rigid_motion(canonical, now%contact, now%elastic_change)
+    call subtract_rigid_motion(canonical, now%weight, now%contacts, now%elastic_change)
     curvature = ddot(n, now%elastic_change, 1, now%direction, 1)
-    if (curvature > 0.0_dp) step = ddot(n, now%slope, 1, now%direction, 1)/curvature
+    if (.not. curvature > 0.0_dp) return
+    step = ddot(n, now%slope, 1, now%direction, 1)/curvature
+    gains = step > 0.0_dp
+    if (gains) now%step = step
   end subroutine find_step
 
+  !> The largest magnitude.
+  pure function largest_of(values) result(most)
+    real(dp), intent(in), contiguous :: values(:)
+    real(dp) :: most
+    real(dp) :: most_of(4)
+    integer :: k, whole
+
+    most_of = 0.0_dp
+    whole = size(values) - modulo(size(values), 4)
+    do k = 1, whole, 4
+      most_of = max(most_of, abs(values(k:k + 3)))
+    end do
+    do k = whole + 1, size(values)
+      most_of(1) = max(most_of(1), abs(values(k)))
+    end do
+    most = maxval(most_of)
+  end function largest_of
+
   !> Take the step, exchange points and restore equilibrium; the displacements follow.
-  subroutine take_descent_step(canonical, scaled, step, state, now)
+  subroutine take_descent_step(canonical, scaled, state, now)
     type(canonical_problem), intent(in) :: canonical
     type(scaled_problem), intent(in) :: scaled
-    real(dp), intent(in) :: step
     integer, intent(inout) :: state(:)
     type(descent), intent(inout) :: now
     real(dp) :: stretch
-    logical :: joined
+    logical :: exchanged, joined
 
-    now%stepped = now%force - step*now%direction
-    now%force = now%stepped
-    call exchange_points(scaled, canonical%excluded, now%gap, step, state, now%force, joined)
-    if (joined) now%previous = 0.0_dp
+    now%stepped = now%force - now%step*now%direction
     stretch = 1.0_dp
+    exchanged = .true.
     if (canonical%plain) then
-      ! Not zero at a few points only.
-      now%added = now%force - now%stepped
+      call exchange_plain_points(now%stepped, now%gap, now%step, state, now%force, now%added, exchanged, joined)
       call stretch_forces(state, now%force, stretch)
     else
+      now%force = now%stepped
+      call exchange_points(scaled, canonical%excluded, now%gap, now%step, state, now%force, joined)
       call restore_equilibrium(canonical, scaled, state, now%force)
       now%added = now%force - now%stepped
     end if
-    now%displacement = now%displacement - step*now%change
-    call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
+    if (joined) now%previous = 0.0_dp
+    now%displacement = now%displacement - now%step*now%change
+    if (exchanged) call add_rough_product(canonical%alpha, scaled%factor, now%added, now%displacement)
     now%displacement = stretch*now%displacement
   end subroutine take_descent_step
+
+  !> As `exchange_points` for the plain problem, from the forces after the step to `force`; `added` is their difference,
+  !> which is not zero at a few points only, those `exchanged`, if any were.
+  pure subroutine exchange_plain_points(stepped, gap, step, state, force, added, exchanged, joined)
+    real(dp), intent(in), contiguous :: stepped(:), gap(:)
+    real(dp), intent(in) :: step
+    integer, intent(inout), contiguous :: state(:)
+    real(dp), intent(inout), contiguous :: force(:), added(:)
+    logical, intent(out) :: exchanged, joined
+    integer :: k
+
+    exchanged = .false.
+    joined = .false.
+    do k = 1, size(state)
+      force(k) = stepped(k)
+      added(k) = 0.0_dp
+      if (state(k) /= FUGE_OPEN .and. stepped(k) > 0.0_dp) cycle
+      state(k) = FUGE_OPEN
+      force(k) = 0.0_dp
+      if (gap(k) < 0.0_dp) then
+        state(k) = FUGE_AT_LOWER_STOP
+        force(k) = -step*gap(k)
+        joined = .true.
+      end if
+      added(k) = force(k) - stepped(k)
+      exchanged = exchanged .or. abs(added(k)) > 0.0_dp
+    end do
+  end subroutine exchange_plain_points
 
   !> Points whose force no longer pushes at their stop open; open ones beyond a stop join it. `joined` if any did.
   pure subroutine exchange_points(scaled, excluded, gap, step, state, force, joined)
@@ -256,24 +445,23 @@ contains
     integer :: changes
 
     changes = count(state /= before)
-    is_settled = changes*SETTLED < count(state /= FUGE_OPEN)
+    is_settled = changes*SETTLED < count(state /= FUGE_OPEN) .and. changes <= FEW_CHANGES
     if (canonical%plain) is_settled = is_settled .and. changes*FEW_OPEN <= count(state == FUGE_OPEN)
   end function is_settled
 
   !> Subtract from displacements their least-squares rigid motion over the contact, from `other` (n) the same motion.
-  subroutine subtract_rigid_motion(canonical, contact, length, other)
+  !> `weight` (n) is 1 at the `contacts` points of the contact.
+  subroutine subtract_rigid_motion(canonical, weight, contacts, length, other)
     type(canonical_problem), intent(in) :: canonical
-    logical, intent(in) :: contact(:)
-    real(dp), intent(inout) :: length(:)
+    real(dp), intent(in), contiguous :: weight(:)
+    integer, intent(in) :: contacts
+    real(dp), intent(inout), contiguous :: length(:)
     real(dp), intent(inout), optional :: other(:)
-    real(dp) :: translation
 
     if (canonical%plain) then
-      translation = sum(length, mask=contact)/real(max(count(contact), 1), dp)
-      length = length - translation
-      if (present(other)) other = other - translation
+      length = length - ddot(size(length), weight, 1, length, 1)/real(max(contacts, 1), dp)
     else if (size(canonical%load) > 0) then
-      call subtract_rigid_modes(canonical%modes, contact, length, other)
+      call subtract_rigid_modes(canonical%modes, weight > 0.0_dp, length, other)
     end if
   end subroutine subtract_rigid_motion
 

@@ -4,10 +4,12 @@
 !> is a translation, or multiples of R R^T added to it, change the motions and not the forces, and can make the block
 !> positive definite. Where it is singular, a regularisation is added to its diagonal.
 module fuge_kkt_base_set
+  use fuge_blocked_cholesky, only: factor_in_blocks
   use fuge_canonical_problem, only: canonical_problem
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dpotrf, dtrsv
+  use fuge_lapack, only: dtrsv
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
+  use fuge_threads, only: run_in_parts, threads_here, work_in_parts
   implicit none
   private
 
@@ -19,6 +21,9 @@ module fuge_kkt_base_set
   real(dp), parameter :: ENERGY_TOLERANCE = 4.0_dp*epsilon(1.0_dp)
   !> Regularisations tried where alpha is singular, relative to its range.
   real(dp), parameter :: REGULARISATIONS(3) = [1.0e-12_dp, 1.0e-11_dp, 1.0e-10_dp]
+
+  !> Threads share the gathering of blocks with as many points as this.
+  integer, parameter :: MANY_POINTS = 384
 
   !> Its components are for the factor that extends it.
   type, public :: kkt_base_set
@@ -43,6 +48,15 @@ module fuge_kkt_base_set
     procedure :: factorise
     procedure :: augmentation_entries
   end type kkt_base_set
+
+  !> The lower half of a block that is gathered, and the extremes of what each part has gathered.
+  type, extends(work_in_parts) :: gathering
+    real(dp), pointer, contiguous :: alpha(:, :) => null(), lower(:, :) => null()
+    integer, pointer, contiguous :: points(:) => null()
+    real(dp), allocatable :: least(:), most(:)
+  contains
+    procedure :: do_part => gather_part
+  end type gathering
 
 contains
 
@@ -155,7 +169,7 @@ contains
     self%pivot_ratio = 1.0_dp
     is_definite = .true.
     if (m < 1) return
-    call dpotrf('L', m, self%lower, m, info)
+    call factor_in_blocks(self%lower, info)
     is_definite = info == 0
     if (.not. is_definite) return
     largest = maxval(self%diagonal)
@@ -242,18 +256,23 @@ contains
 
   !> Gather the block of the base set; its coefficient that is nearest to zero, and the range of its coefficients.
   !> Equal coefficients, as of a single point, have a range of their own size, which is 0 for no compliance at all.
-  pure subroutine gather_block(self, alpha, nearest_to_zero, range)
-    class(kkt_base_set), intent(inout) :: self
-    real(dp), intent(in), contiguous :: alpha(:, :)
+  subroutine gather_block(self, alpha, nearest_to_zero, range)
+    class(kkt_base_set), intent(inout), target :: self
+    real(dp), intent(in), target, contiguous :: alpha(:, :)
     real(dp), intent(out) :: nearest_to_zero, range
+    type(gathering) :: work
     real(dp) :: least, most
-    integer :: j
+    integer :: parts
 
-    least = huge(least)
-    most = -huge(most)
-    do j = 1, size(self%base_set)
-      call gather_column(alpha(:, self%base_set(j)), self%base_set(j:), self%lower(j:, j), least, most)
-    end do
+    parts = 1
+    if (size(self%base_set) >= MANY_POINTS) parts = threads_here()
+    work%alpha => alpha
+    work%points => self%base_set
+    work%lower => self%lower
+    allocate (work%least(parts), work%most(parts))
+    call run_in_parts(parts, work)
+    least = minval(work%least)
+    most = maxval(work%most)
     if (size(self%base_set) < 1) then
       least = 0.0_dp
       most = 0.0_dp
@@ -267,6 +286,22 @@ contains
     ! Zero if there are both signs. Taking out such a coefficient costs no digits.
     nearest_to_zero = max(least, 0.0_dp) + min(most, 0.0_dp)
   end subroutine gather_block
+
+  !> Every so many columns, with their extremes.
+  subroutine gather_part(self, part, parts)
+    class(gathering), intent(inout) :: self
+    integer, intent(in) :: part, parts
+    real(dp) :: least, most
+    integer :: j
+
+    least = huge(least)
+    most = -huge(most)
+    do j = part + 1, size(self%points), parts
+      call gather_column(self%alpha(:, self%points(j)), self%points(j:), self%lower(j:, j), least, most)
+    end do
+    self%least(part + 1) = least
+    self%most(part + 1) = most
+  end subroutine gather_part
 
   !> `gathered` is the `column` at the `points`; `least` and `most` go along.
   pure subroutine gather_column(column, points, gathered, least, most)

@@ -8,11 +8,12 @@
 !> contact.
 module fuge_kkt_factor
   use, intrinsic :: iso_c_binding, only: c_long_long
+  use fuge_blocked_cholesky, only: solve_in_blocks
   use fuge_canonical_problem, only: canonical_problem
   use fuge_kinds, only: dp
   use fuge_kkt_base_set, only: kkt_base_set, PIVOT_TOLERANCE
   use fuge_kkt_inverse, only: kkt_inverse
-  use fuge_lapack, only: dgemv, dpotrf, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
+  use fuge_lapack, only: dgemv, dpotrf, dsyrk, dsytrf, dsytrs, dtrsv
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_NOT_DEFINITE
   implicit none
   private
@@ -238,8 +239,7 @@ contains
       call fill_border(self, alpha, target_keys(j), self%border(:, self%borders))
     end do
     if (self%borders >= first_new .and. m > 0) then
-      call dtrsm('L', 'L', 'N', 'N', m, self%borders - first_new + 1, 1.0_dp, self%lower, m, &
-                 self%border(:, first_new:), m)
+      call solve_in_blocks(self%lower, self%border(:, first_new:self%borders))
       call count_cost(self, real(m, dp)**2*real(self%borders - first_new + 1, dp))
     end if
   end subroutine form_borders

@@ -6,6 +6,7 @@ module fuge_kkt_solution
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_refinement_error, only: error_left, make_random_errors, LARGEST, RANDOM_SIGNS
+  use fuge_threads, only: run_in_parts, share, threads_here, work_in_parts
   implicit none
   private
 
@@ -26,6 +27,9 @@ module fuge_kkt_solution
   integer, parameter :: PANEL = 256
   !> Where fewer than one in this many rows is left out, it costs less to use all of them than to gather the others.
   integer, parameter :: ROWS_PER_GAP = 5
+  !> Threads share residuals with more coefficients than this, in groups of ROWS points.
+  real(dp), parameter :: SHARED = 2.0_dp**16
+  integer, parameter :: ROWS = 16
   !> The terms of at most this many points are compared.
   integer, parameter :: CANDIDATES = 8
 
@@ -46,6 +50,14 @@ module fuge_kkt_solution
   contains
     procedure :: fit
   end type refinement_arrays
+
+  !> Columns that are added to residuals, of which each part has some points.
+  type, extends(work_in_parts) :: residual_work
+    real(dp), pointer, contiguous :: alpha(:, :) => null(), force(:) => null(), high(:) => null(), low(:) => null()
+    integer, pointer, contiguous :: points(:) => null(), loaded(:) => null()
+  contains
+    procedure :: do_part => add_part
+  end type residual_work
 
 contains
 
@@ -255,7 +267,7 @@ contains
   !> Residuals of the gaps (n), at the `points` of the contact and few others, and of equilibrium (m); `loaded` are the
   !> points that may have a force. `high`, `low` and `column` are work space as long as `points`. The arguments are
   !> thirteen, because three of them are work space that the caller keeps.
-  pure subroutine find_residual(canonical, gap, gap_rounding, regularisation, points, loaded, force, motion, high, &
+  subroutine find_residual(canonical, gap, gap_rounding, regularisation, points, loaded, force, motion, high, &
                                 low, column, residual, missing)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: gap(:), gap_rounding(:), regularisation
@@ -264,26 +276,20 @@ contains
     real(dp), intent(inout), contiguous :: high(:), low(:), column(:)
     real(dp), intent(inout) :: residual(:), missing(:)
     real(dp) :: shift_high(1), shift_low(1), bias
-    integer :: j, k, waiting
+    integer :: j, k
 
     bias = bias_above(largest_sum(canonical, gap, regularisation, force, motion))
     high = bias
     low = 0.0_dp
     shift_high = bias
     shift_low = 0.0_dp
-    waiting = 0
-    do j = 1, size(loaded)
-      ! Forces at limits may be the only ones: there is no gap to close then.
-      if (size(points) < 1 .or. .not. abs(force(loaded(j))) > 0.0_dp) cycle
-      call add_column([canonical%datum], -force(loaded(j)), shift_high, shift_low)
-      if (waiting == 0) then
-        waiting = loaded(j)
-        cycle
-      end if
-      call add_columns(canonical%alpha, points, waiting, loaded(j), [force(waiting), force(loaded(j))], high, low)
-      waiting = 0
-    end do
-    if (waiting > 0) call add_columns(canonical%alpha, points, waiting, waiting, [force(waiting), 0.0_dp], high, low)
+    ! Forces at limits may be the only ones: there is no gap to close then.
+    if (size(points) > 0) then
+      do j = 1, size(loaded)
+        if (abs(force(loaded(j))) > 0.0_dp) call add_column([canonical%datum], -force(loaded(j)), shift_high, shift_low)
+      end do
+      call add_all_columns(canonical%alpha, points, loaded, force, high, low)
+    end if
     ! The datum times the sum of the forces.
     column = shift_high(1) - bias
     call add_terms(column, high, low)
@@ -309,6 +315,60 @@ contains
       residual(points(k)) = (high(k) - bias) + low(k)
     end do
   end subroutine find_residual
+
+  !> Add the columns of the `loaded` points at the `points`, times their forces; threads share the points if there are
+  !> many.
+  subroutine add_all_columns(alpha, points, loaded, force, high, low)
+    real(dp), intent(in), target, contiguous :: alpha(:, :), force(:)
+    integer, intent(in), target, contiguous :: points(:), loaded(:)
+    real(dp), intent(inout), target, contiguous :: high(:), low(:)
+    type(residual_work) :: work
+    integer :: parts
+
+    work%alpha => alpha
+    work%force => force
+    work%points => points
+    work%loaded => loaded
+    work%high => high
+    work%low => low
+    parts = 1
+    if (real(size(points), dp)*real(size(loaded), dp) > SHARED) parts = threads_here()
+    call run_in_parts(parts, work)
+  end subroutine add_all_columns
+
+  !> The points of one part.
+  subroutine add_part(self, part, parts)
+    class(residual_work), intent(inout) :: self
+    integer, intent(in) :: part, parts
+    integer :: first, last
+
+    call share((size(self%points) + ROWS - 1)/ROWS, part, parts, first, last)
+    first = ROWS*first + 1
+    last = min(ROWS*(last + 1), size(self%points))
+    if (first > last) return
+    call add_pairs_of_columns(self%alpha, self%points(first:last), self%loaded, self%force, self%high(first:last), &
+                              self%low(first:last))
+  end subroutine add_part
+
+  !> As `add_all_columns`, two columns at a time.
+  pure subroutine add_pairs_of_columns(alpha, points, loaded, force, high, low)
+    real(dp), intent(in), contiguous :: alpha(:, :), force(:)
+    integer, intent(in), contiguous :: points(:), loaded(:)
+    real(dp), intent(inout), contiguous :: high(:), low(:)
+    integer :: j, waiting
+
+    waiting = 0
+    do j = 1, size(loaded)
+      if (.not. abs(force(loaded(j))) > 0.0_dp) cycle
+      if (waiting == 0) then
+        waiting = loaded(j)
+        cycle
+      end if
+      call add_columns(alpha, points, waiting, loaded(j), [force(waiting), force(loaded(j))], high, low)
+      waiting = 0
+    end do
+    if (waiting > 0) call add_columns(alpha, points, waiting, waiting, [force(waiting), 0.0_dp], high, low)
+  end subroutine add_pairs_of_columns
 
   !> Add two columns at the `points`, times their `forces`.
   pure subroutine add_columns(alpha, points, first, second, forces, high, low)

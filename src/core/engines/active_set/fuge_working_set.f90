@@ -88,7 +88,7 @@ contains
   end subroutine start
 
   !> Take these states (n) as the set.
-  pure subroutine mark(self, canonical, state)
+  subroutine mark(self, canonical, state)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: state(:)
@@ -105,7 +105,7 @@ contains
   end subroutine mark
 
   !> The forces of the points at their limits, and what they displace.
-  pure subroutine load_limited_points(self, canonical, state)
+  subroutine load_limited_points(self, canonical, state)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     integer, intent(in) :: state(:)
@@ -270,7 +270,7 @@ contains
   !> Gaps that follow from forces and motion at the open points, those of the stops at the others, and the violations.
   !> Lengths are compared with all that displaces the point if `exact`, else with the contribution of the largest
   !> force, which costs one column.
-  pure subroutine measure(self, canonical, exact, solution)
+  subroutine measure(self, canonical, exact, solution)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     logical, intent(in) :: exact

@@ -7,6 +7,7 @@ module fuge_displacements
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemv, dsymv
   use fuge_marked_runs, only: next_run
+  use fuge_threads, only: run_in_parts, share, threads_here, work_in_parts
   implicit none
   private
 
@@ -17,8 +18,24 @@ module fuge_displacements
   integer, parameter :: SHORT_RUN = 16
   !> Runs of columns from this length on are left to BLAS, where rounding does not matter.
   integer, parameter :: LONG_RUN = 8
+  !> Threads share displacements with more coefficients than this, in groups of ROWS points.
+  real(dp), parameter :: SHARED = 2.0_dp**17
+  integer, parameter :: ROWS = 16
+  !> Displacements are added at all points, or at open ones: one by one, or where they lie side by side together.
+  integer, parameter :: ALL_POINTS = 0, POINT_BY_POINT = 1, IN_RUNS = 2
   !> With force at more than this fraction of the points, half of the matrix is read instead of columns.
   real(dp), parameter :: MANY = 0.6_dp
+
+  !> Displacements to be added, of which each part has some points.
+  type, extends(work_in_parts) :: displacement_work
+    real(dp), pointer, contiguous :: alpha(:, :) => null(), u(:) => null()
+    real(dp), pointer, contiguous :: force(:) => null()
+    logical, pointer :: contact(:) => null()
+    real(dp) :: datum = 0.0_dp
+    integer :: way = ALL_POINTS
+  contains
+    procedure :: do_part => add_part
+  end type displacement_work
 
 contains
 
@@ -38,13 +55,14 @@ contains
   !> u := u + (alpha - datum) f, with the columns of the contact only.
   !>
   !> Not by BLAS: taking the datum out of each coefficient keeps the digits of the product.
-  pure subroutine add_elastic_displacement(alpha, datum, contact, force, u)
-    real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, force(:)
-    logical, intent(in) :: contact(:)
-    real(dp), intent(inout), contiguous :: u(:)
+  subroutine add_elastic_displacement(alpha, datum, contact, force, u)
+    real(dp), intent(in), target, contiguous :: alpha(:, :)
+    real(dp), intent(in), target, contiguous :: force(:)
+    real(dp), intent(in) :: datum
+    logical, intent(in), target :: contact(:)
+    real(dp), intent(inout), target, contiguous :: u(:)
 
-    call add_in_rows(alpha, datum, contact, force, 1, size(u), u)
+    call add_in_parts(alpha, datum, contact, force, ALL_POINTS, u)
   end subroutine add_elastic_displacement
 
   !> As `add_elastic_displacement`, but needed at open points only; what is added to u at points in contact is left
@@ -52,31 +70,110 @@ contains
   !>
   !> Few open points are multiplied one by one, by their columns, which are their rows too; of more, the rows alone are
   !> read where they lie side by side.
-  pure subroutine add_open_displacement(alpha, datum, contact, force, u)
-    real(dp), intent(in), contiguous :: alpha(:, :), force(:)
+  subroutine add_open_displacement(alpha, datum, contact, force, u)
+    real(dp), intent(in), target, contiguous :: alpha(:, :)
+    real(dp), intent(in), target, contiguous :: force(:)
     real(dp), intent(in) :: datum
-    logical, intent(in) :: contact(:)
-    real(dp), intent(inout), contiguous :: u(:)
-    integer :: first, k, last, n
+    logical, intent(in), target :: contact(:)
+    real(dp), intent(inout), target, contiguous :: u(:)
+    integer :: n
 
     n = size(u)
     if (2*count(contact) > n) then
-      first = findloc_contact(contact, 1, n)
-      last = findloc_contact(contact, n, 1)
-      do k = 1, n
-        if (.not. contact(k)) u(k) = u(k) + displacement_at(alpha(first:last, k), datum, force(first:last))
-      end do
+      call add_in_parts(alpha, datum, contact, force, POINT_BY_POINT, u)
     else if (count(contact(2:) .neqv. contact(:n - 1))*SHORT_RUN > n) then
-      call add_in_rows(alpha, datum, contact, force, 1, n, u)
+      call add_in_parts(alpha, datum, contact, force, ALL_POINTS, u)
     else
-      last = 0
-      do
-        call next_run(.not. contact, last + 1, first, last)
-        if (first > n) exit
-        call add_in_rows(alpha, datum, contact, force, first, last, u)
-      end do
+      call add_in_parts(alpha, datum, contact, force, IN_RUNS, u)
     end if
   end subroutine add_open_displacement
+
+  !> Add displacements at the points that `way` tells; threads share the points if there are many.
+  subroutine add_in_parts(alpha, datum, contact, force, way, u)
+    real(dp), intent(in), target, contiguous :: alpha(:, :)
+    real(dp), intent(in), target, contiguous :: force(:)
+    real(dp), intent(in) :: datum
+    logical, intent(in), target :: contact(:)
+    integer, intent(in) :: way
+    real(dp), intent(inout), target, contiguous :: u(:)
+    type(displacement_work) :: work
+    integer :: parts
+
+    work%alpha => alpha
+    work%datum = datum
+    work%contact => contact
+    work%force => force
+    work%u => u
+    work%way = way
+    parts = 1
+    if (real(size(u), dp)**2 > SHARED) then
+      if (count_products(contact, way) > SHARED) parts = threads_here()
+    end if
+    call run_in_parts(parts, work)
+  end subroutine add_in_parts
+
+  !> How many coefficients are read?
+  pure function count_products(contact, way) result(products)
+    logical, intent(in) :: contact(:)
+    integer, intent(in) :: way
+    real(dp) :: products
+
+    products = real(count(contact), dp)*real(merge(size(contact), count(.not. contact), way == ALL_POINTS), dp)
+  end function count_products
+
+  !> The points of one part.
+  subroutine add_part(self, part, parts)
+    class(displacement_work), intent(inout) :: self
+    integer, intent(in) :: part, parts
+    integer :: first, last, n
+
+    n = size(self%contact)
+    call share((n + ROWS - 1)/ROWS, part, parts, first, last)
+    first = ROWS*first + 1
+    last = min(ROWS*(last + 1), n)
+    if (first > last) return
+    select case (self%way)
+    case (POINT_BY_POINT)
+      call add_at_open_points(self%alpha, self%datum, self%contact, self%force, first, last, self%u)
+    case (IN_RUNS)
+      call add_in_open_runs(self%alpha, self%datum, self%contact, self%force, first, last, self%u)
+    case default
+      call add_in_rows(self%alpha, self%datum, self%contact, self%force, first, last, self%u)
+    end select
+  end subroutine add_part
+
+  !> Add displacements at the open points out of `first` to `last`, one by one.
+  pure subroutine add_at_open_points(alpha, datum, contact, force, first, last, u)
+    real(dp), intent(in), contiguous :: alpha(:, :), force(:)
+    real(dp), intent(in) :: datum
+    logical, intent(in) :: contact(:)
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: u(:)
+    integer :: from, k, to
+
+    from = findloc_contact(contact, 1, size(contact))
+    to = findloc_contact(contact, size(contact), 1)
+    do k = first, last
+      if (.not. contact(k)) u(k) = u(k) + displacement_at(alpha(from:to, k), datum, force(from:to))
+    end do
+  end subroutine add_at_open_points
+
+  !> Add displacements at the open points out of `first` to `last`, where they lie side by side in one sweep.
+  pure subroutine add_in_open_runs(alpha, datum, contact, force, first, last, u)
+    real(dp), intent(in), contiguous :: alpha(:, :)
+    real(dp), intent(in) :: datum, force(:)
+    logical, intent(in) :: contact(:)
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: u(:)
+    integer :: from, to
+
+    to = first - 1
+    do
+      call next_run(.not. contact(:last), to + 1, from, to)
+      if (from > last) exit
+      call add_in_rows(alpha, datum, contact, force, from, to, u)
+    end do
+  end subroutine add_in_open_runs
 
   !> The first point in contact on the way from one point to another; the last one of them if there is none.
   pure function findloc_contact(contact, from, to) result(point)
@@ -223,7 +320,7 @@ contains
                  1.0_dp, u, 1)
       rest(first:last) = .false.
     end do
-    if (any(rest)) call add_in_rows(alpha, 0.0_dp, rest, factor*force, 1, n, u)
+    if (any(rest)) call add_in_parts(alpha, 0.0_dp, rest, factor*force, ALL_POINTS, u)
   end subroutine add_some_columns
 
 end module fuge_displacements

@@ -32,7 +32,7 @@ contains
   !> and what those displace.
   !>
   !> `canonical` with its matrix; `solution` of its contact set.
-  pure function forces_are_unbounded(canonical, solution) result(unbounded)
+  function forces_are_unbounded(canonical, solution) result(unbounded)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution
     logical :: unbounded
