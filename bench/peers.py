@@ -169,7 +169,7 @@ QUADRATIC = [
     ("quadprog", by_quadprog, "", []),
     ("highs", by_highs, "", []),
     ("clarabel", by_clarabel, "1e-10", ["1e-4", "1e-6", "1e-8"]),
-    ("osqp", by_osqp, "1e-6", ["1e-3", "1e-4", "1e-5"]),
+    ("osqp", by_osqp, "1e-3", []),
     ("scipy_nnls", by_nnls, "", []),
 ]
 # Those that take one triangle of H as a sparse matrix, by columns.

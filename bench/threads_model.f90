@@ -52,8 +52,8 @@ contains
     do k = 1, size(NAMES)
       call print_row(k, n, threads, of_one, of_all, assumed)
     end do
-    write (*, '(/,2(a,f0.1),a)') 'Bandwidth of one core ', 1.0e-9_dp*of_one, ' GB/s, of '//whole(threads) &
-      //' together ', 1.0e-9_dp*of_all, ' GB/s.'
+    write (*, '(/,a,/,a)') '| cores of this machine | bandwidth of the memory to them, GB/s |', '| ---: | ---: |'
+    write (*, '(a,f0.1,a)') '| 1 | ', 1.0e-9_dp*of_one, ' |', '| '//whole(threads)//' | ', 1.0e-9_dp*of_all, ' |'
   end subroutine run
 
   subroutine print_head(threads, assumed)
