@@ -1,20 +1,23 @@
 """Other contact codes on the areas that `surfaces` wrote.
 
-    python area_peers.py DIRECTORY [quick] [once]
+    python area_peers.py DIRECTORY [quick] [once] [threads=N | equal]
 
-`quick` gives a code less time, `once` does not repeat fast solves.
+`quick` gives a code less time, `once` does not repeat fast solves; `threads=N` runs those codes that have threads by
+as many, in elapsed time, and adds to the answers; `equal` runs each code to the tolerances that bring its error below
+LEAST_ERROR, against the forces in NAME.reference.
 
 Reads each DIRECTORY/NAME.area and NAME.gaps; writes the forces found to NAME.METHODTOLERANCE and a line for each solve
 to area_answers.csv: name, method, tolerance, time, nothing, memory, failure. The program `judge_surfaces` does the
-rest. Each code runs in a process of its own, with one thread; the time is from the gaps to the pressures, operator
-included. ASPHER is measured as its documentation solves by FFT, and with the settings that are fastest here: nested grids, the
-preconditioner by FFT, single precision first.
+rest. Each code runs in a process of its own; the time is from the gaps to the pressures, operator included. ASPHER is
+measured as its documentation solves by FFT, and with the settings that are fastest here: nested grids, the
+preconditioner by FFT, single precision as far as FASTEST says, then double precision.
 """
+import functools
 import glob
 import os
 import sys
 
-from peer_runs import Answers
+from peer_runs import THREADS, Answers
 
 import aspher
 import numpy as np
@@ -24,12 +27,26 @@ from ContactMechanics.Systems import NonSmoothContactSystem
 from SurfaceTopography import Topography
 
 # Processor time in seconds until a code is stopped.
-TIMEOUT, TIMEOUT_QUICK = 45, 10
+TIMEOUT, TIMEOUT_QUICK = 60, 10
 # Of the sphere, of large rough surfaces, and of those in the picture: fewer for codes that take long.
 SPHERE_TOLERANCE, LARGE_TOLERANCE = "1e-10", "1e-8"
 TOLERANCES, FEW_TOLERANCES = ("1e-4", "1e-6", "1e-8", "1e-10"), ("1e-4", "1e-8")
 # Cells along a side on which a code is run, at most: beyond it would only use up its time.
 MOST = {"aspher": 2048, "aspher_nested": 2048, "tamaas": 1024, "contactmechanics": 512}
+# ASPHER's fastest settings, of those tried on 512 x 512 and 1024 x 1024 cells: `coarsest` 16 to 64, `coarse_tol` 1e-2
+# to 1e-6, `float_floor` 1e-4 to 2e-7, double precision alone, its three preconditioners, its H2 matrices on the active
+# set, both rules of conjugate gradients, its build with FFTW for this processor, and its thresholds of the allocator.
+FASTEST = {"sphere": {"coarse_tol": 1e-5, "float_floor": 5e-7},
+           "light_area": {"coarse_tol": 1e-4, "float_floor": 5e-7},
+           "heavy_area": {"coarse_tol": 1e-4, "float_floor": 2e-7}}
+# At equal errors: what is fastest where single precision is enough, as far as it goes; which of the two, depends on
+# scene and error.
+SINGLE = {"aspher_single": {"precision": "float", "coarse_tol": 1e-3},
+          "aspher_single_4": {"precision": "float", "coarse_tol": 1e-4}}
+LEAST_SINGLE = 2e-6
+# And tolerances of each code, and the error below which none tighter is tried.
+EQUAL_TOLERANCES = [f"{digit}e-{power}" for power in range(1, 11) for digit in (3, 1)]
+LEAST_ERROR = 1e-5
 
 
 def by_aspher(gap, periodic, pressure, tolerance):
@@ -39,11 +56,11 @@ def by_aspher(gap, periodic, pressure, tolerance):
     return pressures(found)
 
 
-def by_aspher_nested(gap, periodic, pressure, tolerance):
-    """The same on nested grids, in single precision as far as that goes."""
+def by_aspher_nested(settings, gap, periodic, pressure, tolerance):
+    """The same on nested grids, in single and then in double precision."""
     found = aspher.solve_nested(grid_size=len(gap), gap=gap.ravel(), p_nominal=pressure, tol=tolerance, coarsest=32,
-                                backend="periodic" if periodic else "fft", precond_engine="fft",
-                                precision="float_then_double", max_iter=100000)
+                                backend="periodic" if periodic else "fft", precond_engine="fft", max_iter=100000,
+                                **({"precision": "float_then_double"} | settings))
     return pressures(found)
 
 
@@ -96,8 +113,9 @@ def by_contactmechanics(gap, periodic, pressure, tolerance):
 
 CODES = {"aspher": by_aspher, "aspher_nested": by_aspher_nested, "tamaas": by_tamaas,
          "contactmechanics": by_contactmechanics}
-# Those that know a hardness.
+# Those that know a hardness, and those that have threads.
 SATURATED_CODES = {"tamaas": by_tamaas_saturated}
+THREADED_CODES = ("aspher_nested", "tamaas")
 
 
 def read_area(path):
@@ -105,6 +123,50 @@ def read_area(path):
         fields = dict(line.split() for line in header)
     n = int(fields["n"])
     return fields, np.fromfile(path + ".gaps").reshape(n, n)
+
+
+def for_family(method, solver, family):
+    """The solver with its settings for a family of problems."""
+    if solver is not by_aspher_nested:
+        return solver
+    return functools.partial(solver, SINGLE.get(method) or FASTEST[family])
+
+
+def measure(answers, done, name, fields, gap):
+    """All codes on one surface: the tolerance of the tables, and several where it is in the picture."""
+    family, n, periodic = fields["problem"], len(gap), fields["periodic"] == "1"
+    problem = (gap, periodic, float(fields["pressure"]))
+    saturated = "hardness" in fields
+    pictured = periodic and family not in done and not saturated and THREADS == 1
+    done.add(family)
+    codes = SATURATED_CODES if saturated else CODES
+    if THREADS > 1:
+        codes = {} if saturated else {method: CODES[method] for method in THREADED_CODES}
+    for method, solver in codes.items():
+        tolerances = (LARGE_TOLERANCE if periodic else SPHERE_TOLERANCE,)
+        if pictured:
+            tolerances = TOLERANCES if method.startswith("aspher") else FEW_TOLERANCES
+        for tolerance in tolerances if n <= MOST[method] else ():
+            # Pressures to forces of the cells.
+            hardness = (float(fields["hardness"]),) if saturated else ()
+            answers.add(name, method, tolerance, family, for_family(method, solver, family),
+                        (*problem, float(tolerance), *hardness), 1.0 / n**2)
+
+
+def measure_errors(answers, directory, name, fields, gap):
+    """Each code from its loosest tolerance on, until the error is small enough."""
+    family, n, periodic = fields["problem"], len(gap), fields["periodic"] == "1"
+    reference = np.fromfile(os.path.join(directory, name + ".reference"))
+    for method, solver in (CODES | dict.fromkeys(SINGLE, by_aspher_nested)).items():
+        for tolerance in EQUAL_TOLERANCES:
+            if method in SINGLE and float(tolerance) < LEAST_SINGLE:
+                break
+            force = answers.add(name, method, tolerance, family, for_family(method, solver, family),
+                                (gap, periodic, float(fields["pressure"]), float(tolerance)), 1.0 / n**2)
+            if (family, method) in answers.given_up:
+                break
+            if force is not None and np.abs(force - reference).sum() < LEAST_ERROR * reference.sum():
+                break
 
 
 def main():
@@ -115,21 +177,12 @@ def main():
     done = set()
     for name in names:
         fields, gap = read_area(os.path.join(directory, name))
-        family, n, periodic = fields["problem"], len(gap), fields["periodic"] == "1"
-        print(f"              {family}, {n} x {n}", flush=True)
-        problem = (gap, periodic, float(fields["pressure"]))
-        saturated = "hardness" in fields
-        pictured = periodic and family not in done and not saturated
-        done.add(family)
-        for method, solver in (SATURATED_CODES if saturated else CODES).items():
-            tolerances = (LARGE_TOLERANCE if periodic else SPHERE_TOLERANCE,)
-            if pictured:
-                tolerances = TOLERANCES if method.startswith("aspher") else FEW_TOLERANCES
-            for tolerance in tolerances if n <= MOST[method] else ():
-                # Pressures to forces of the cells.
-                hardness = (float(fields["hardness"]),) if saturated else ()
-                answers.add(name, method, tolerance, family, solver, (*problem, float(tolerance), *hardness),
-                            1.0 / n**2)
+        threads = f", {THREADS} threads" if THREADS > 1 else ""
+        print(f"              {fields['problem']}, {len(gap)} x {len(gap)}{threads}", flush=True)
+        if "equal" in sys.argv[2:]:
+            measure_errors(answers, directory, name, fields, gap)
+        else:
+            measure(answers, done, name, fields, gap)
 
 
 main()

@@ -20,6 +20,15 @@ ROUNDING = 1e-11
 # Problems with a hardness: the mean pressure in per cent of it follows.
 SATURATED = "saturated_"
 TOLERANCE = {"sphere": 1e-10, "light_area": 1e-8, "heavy_area": 1e-8}
+# Cells along a side from which two threads are of interest.
+THREADED = 512
+# Errors of the pressure at which codes are compared, and which curve each method of the measurements belongs to.
+EQUAL_ERRORS = (1e-2, 3e-3, 1e-3, 1e-4, 1e-5)
+EQUAL_CURVES = {"iterative_fft": "iterative_fft", "aspher_nested": "aspher_nested", "aspher_single": "aspher_nested",
+                "aspher_single_4": "aspher_nested", "aspher": "aspher", "tamaas": "tamaas",
+                "contactmechanics": "contactmechanics"}
+EQUAL_SETTINGS = {"aspher": "one grid", "aspher_nested": "single, then double precision",
+                  "aspher_single": "single precision", "aspher_single_4": "single precision"}
 
 
 def side(row):
@@ -72,6 +81,98 @@ def comparison_table(data):
     head = ["problem", "in contact", "products + preconditioner", "fuge: operator and first solve", "next solve",
             *ALL_CODES.values(), "fastest other one over fuge"]
     return table(head, rows)
+
+
+def speed_up(one, two):
+    return f"{total(one) / total(two):.2f}" if one and two and not one["failure"] and not two["failure"] else ""
+
+
+def thread_table(data):
+    """First solves by one thread and by two, beside ASPHER and Tamaas."""
+    rows = []
+    for problem in NAMES:
+        for own in data.where(problem=problem, method="iterative_fft", tolerance=TOLERANCE[problem]):
+            asked = {"problem": problem, "n": own["n"], "tolerance": TOLERANCE[problem]}
+            two = data.one(method="iterative_fft_2", **asked)
+            one_other, two_other = (data.one(method=method, **asked) for method in ("aspher_nested", "aspher_nested_2"))
+            if not two or (side(own) < THREADED
+                           and data.where(problem=problem, method="iterative_fft_2", n=THREADED**2)):
+                continue
+            ratios = [f"{total(other) / total(found):.1f}" if other and not other["failure"] else ""
+                      for found, other in ((own, one_other), (two, two_other))]
+            rows.append([f"{NAMES[problem]}, {side(own)} x {side(own)}", seconds(total(own)), seconds(total(two)),
+                         speed_up(own, two), cell(one_other), cell(two_other), speed_up(one_other, two_other),
+                         cell(data.one(method="tamaas_2", **asked)), *ratios])
+    head = ["problem", "fuge: one thread", "two", "times as fast", "ASPHER, nested: one thread", "two", "times as fast",
+            "Tamaas: two", "ASPHER over fuge: one thread", "two"]
+    return table(head, rows) if rows else ""
+
+
+def fronts(data):
+    """Of each problem and curve the measurements that nothing faster is as exact as: the largest error first."""
+    for problem in NAMES:
+        for curve in dict.fromkeys(EQUAL_CURVES.values()):
+            found = [row for row in data.where(problem=problem)
+                     if EQUAL_CURVES.get(row["method"]) == curve and row["error_solver"] is not None]
+            front = []
+            for row in sorted(found, key=lambda row: (row["error_solver"], total(row))):
+                if not front or total(row) < total(front[-1]):
+                    front.append(row)
+            if front:
+                yield problem, curve, front[::-1]
+
+
+def equal_points(data):
+    for problem, curve, front in fronts(data):
+        for row in front:
+            yield f"equal_{problem}", curve, row["n"], max(row["error_solver"], 1e-16), total(row), ""
+
+
+def equal_table(data):
+    """The least time in which each code reaches an error, over its tolerances and settings."""
+    found = {(problem, curve): front for problem, curve, front in fronts(data)}
+    rows = []
+    for problem, name in NAMES.items():
+        own_front = found.get((problem, "iterative_fft"), [])
+        for error in EQUAL_ERRORS:
+            least = {curve: min((row for row in found.get((problem, curve), []) if row["error_solver"] <= error),
+                                key=total, default=None)
+                     for curve in ("iterative_fft", *ALL_CODES)}
+            own = least["iterative_fft"]
+            if not own:
+                continue
+            aspher = min((least[curve] for curve in ("aspher", "aspher_nested") if least[curve]), key=total,
+                         default=None)
+            others = [aspher, least["tamaas"], least["contactmechanics"]]
+            times = [total(row) for row in others if row]
+            side_of = side(own_front[0])
+            rows.append([f"{name}, {side_of} x {side_of}", short(error), f"**{seconds(total(own))}**",
+                         short(own["tolerance"]), seconds(total(aspher)) if aspher else "",
+                         EQUAL_SETTINGS[aspher["method"]] if aspher else "",
+                         *(seconds(total(row)) if row else "" for row in others[1:]),
+                         f"{min(times) / total(own):.1f}" if times else ""])
+    head = ["problem", "error of the pressure", "fuge", "its tolerance", "ASPHER", "its setting", "Tamaas",
+            "ContactMechanics", "fastest other one over fuge"]
+    return table(head, rows) if rows else ""
+
+
+def memory_table(data):
+    """Memory of large free surfaces beyond the caller's arrays."""
+    found = data.where(problem="area_memory")
+    rows = []
+    for n in sorted({row["n"] for row in found}):
+        cells = [f"{math.isqrt(n)} x {math.isqrt(n)}", memory(8.0 * n)]
+        for contact in ("whole", "tenth"):
+            row = data.one(problem="area_memory", method=contact, n=n)
+            if row is None or row["time_s"] is None:
+                cells += [row["failure"] if row else "", "", ""]
+            else:
+                cells += [memory(row["memory_bytes"]),
+                          f"{row['memory_bytes'] / n / 8.0:.1f}" if row["memory_bytes"] else "", seconds(total(row))]
+        rows.append(cells)
+    head = ["cells", "one array", "whole contact: memory", "arrays", "first solve", "a tenth in contact: memory",
+            "arrays", "first solve"]
+    return table(head, rows) if rows else ""
 
 
 def saturated_table(data):
@@ -171,4 +272,4 @@ def speed_sentence(data):
 
 def tables(data):
     return {"areas": comparison_table(data), "saturated": saturated_table(data), "area_orders": order_table(data),
-            "area_growth": growth_table(data)}
+            "area_growth": growth_table(data), "area_threads": thread_table(data), "area_memory": memory_table(data)}

@@ -4,7 +4,7 @@ module bench_lapack
   implicit none
   private
 
-  public :: dposv, dpotrf, dpotrs, dsyrk, dtrsv
+  public :: dposv, dpotrf, dpotrs, dsymv, dsyrk, dtrsv
 
   interface
     !> Solve a symmetric positive definite system by Cholesky; `a` becomes the factor.
@@ -34,6 +34,15 @@ module bench_lapack
       real(dp), intent(inout) :: b(ldb, *)
       integer, intent(out) :: info
     end subroutine dpotrs
+
+    !> y := alpha A x + beta y for a symmetric A, of which one triangle is read.
+    subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
+      import :: dp
+      character(len=1), intent(in) :: uplo
+      integer, intent(in) :: n, lda, incx, incy
+      real(dp), intent(in) :: alpha, a(lda, *), x(*), beta
+      real(dp), intent(inout) :: y(*)
+    end subroutine dsymv
 
     !> C := alpha A A^T + beta C (trans = 'N'), one triangle.
     subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)

@@ -1,10 +1,11 @@
-!> Resident memory of this process as Linux reports it; unknown on other systems.
+!> Resident memory of this process, and memory that the machine has left, as Linux reports them; unknown on other
+!> systems.
 module bench_memory
   use fuge, only: dp => fuge_dp
   implicit none
   private
 
-  public :: forget_peak, resident, peak_resident
+  public :: available, forget_peak, resident, peak_resident
 
 contains
 
@@ -25,24 +26,31 @@ contains
   function resident() result(bytes)
     real(dp) :: bytes
 
-    bytes = status_value('VmRSS:')
+    bytes = value_in('/proc/self/status', 'VmRSS:')
   end function resident
 
   function peak_resident() result(bytes)
     real(dp) :: bytes
 
-    bytes = status_value('VmHWM:')
+    bytes = value_in('/proc/self/status', 'VmHWM:')
   end function peak_resident
 
-  !> The value of a line like "VmHWM:      1760 kB" of the process's status; negative if there is none.
-  function status_value(word) result(bytes)
-    character(len=*), intent(in) :: word
+  !> What a process may still use without swapping; negative where that is not known.
+  function available() result(bytes)
+    real(dp) :: bytes
+
+    bytes = value_in('/proc/meminfo', 'MemAvailable:')
+  end function available
+
+  !> The value of a line like "VmHWM:      1760 kB" of a file; negative if there is none.
+  function value_in(path, word) result(bytes)
+    character(len=*), intent(in) :: path, word
     real(dp) :: bytes
     character(len=80) :: line
     integer :: unit, stat
 
     bytes = -1.0_dp
-    open (newunit=unit, file='/proc/self/status', action='read', status='old', iostat=stat)
+    open (newunit=unit, file=path, action='read', status='old', iostat=stat)
     if (stat /= 0) return
     do
       read (unit, '(a)', iostat=stat) line
@@ -55,6 +63,6 @@ contains
       exit
     end do
     close (unit)
-  end function status_value
+  end function value_in
 
 end module bench_memory

@@ -10,7 +10,7 @@ module bench_records
   !> One measurement; doc/performance.md explains the columns. Negative: not known, written as
   !> an empty column.
   type, public :: bench_row
-    character(len=16) :: problem = '', method = '', element = ''
+    character(len=20) :: problem = '', method = '', element = ''
     integer :: n = 0, unknowns = -1, work = -1, preconditionings = -1
     real(dp) :: time = -1.0_dp, residual = -1.0_dp
     real(dp) :: error_half_width = -1.0_dp, error_pressure = -1.0_dp, error_force = -1.0_dp

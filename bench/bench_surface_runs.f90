@@ -32,18 +32,28 @@ contains
     row%element = element_name(surface%element)
   end function new_area_row
 
-  !> Times and products of solves to `tolerance`, by one thread. `force` (n*n): the answer, if there is one.
-  subroutine run_area(surface, tolerance, row, force)
+  !> Times and products of solves to `tolerance`. `force` (n*n): the answer, if there is one. `threads`: elapsed times
+  !> of solves by as many; without it processor times of one.
+  subroutine run_area(surface, tolerance, row, force, threads)
     type(bench_surface), intent(in) :: surface
     real(dp), intent(in) :: tolerance
     type(bench_row), intent(inout) :: row
     real(dp), allocatable, intent(out), optional :: force(:)
+    integer, intent(in), optional :: threads
     type(area_watches) :: watches
+    type(fuge_options) :: options
     type(fuge_solution) :: solution
     type(fuge_info) :: info
 
+    options = fuge_options(FUGE_ITERATIVE, tolerance=tolerance)
+    if (present(threads)) then
+      options%threads = threads
+      watches%setup%elapsed = .true.
+      watches%first%elapsed = .true.
+      watches%repeated%elapsed = .true.
+    end if
     do while (.not. watches%first%enough())
-      call solve_twice(surface, fuge_options(FUGE_ITERATIVE, tolerance=tolerance), watches, solution, info)
+      call solve_twice(surface, options, watches, solution, info)
       if (info%failed()) exit
     end do
     row%tolerance = tolerance

@@ -19,9 +19,12 @@ set linetype 13 lc rgb orange lw 1 dt (6, 3) pt 14 ps 0.7
 set linetype 14 lc rgb black lw 1 pt 1 ps 0.7
 # A solve that failed.
 set linetype 15 lc rgb '#444444' lw 1.5 pt 2 ps 0.8
-curves = 14
+set linetype 16 lc rgb blue lw 1 dt (4, 2) pt 4 ps 0.5
+set linetype 17 lc rgb purple lw 1 dt (6, 3) pt 8 ps 0.6
+set linetype 18 lc rgb green lw 1 dt (2, 2) pt 10 ps 0.6
+curves = 18
 names = 'active_set graded iterative_dense iterative_fft smooth daqp piqp proxqp quadprog scipy_nnls tamaas '. \
-  'aspher_nested aspher contactmechanics'
-array title[15] = ['fuge: active set', 'fuge: active set, graded cells', 'fuge: iteration, matrix', \
+  'aspher_nested aspher contactmechanics failed highs clarabel osqp'
+array title[18] = ['fuge: active set', 'fuge: active set, graded cells', 'fuge: iteration, matrix', \
   'fuge: iteration, FFT', 'fuge: smooth punch', 'DAQP', 'PIQP', 'ProxQP', 'quadprog', 'scipy nnls', 'Tamaas', \
-  'ASPHER, nested grids', 'ASPHER', 'ContactMechanics', 'failed, or out of time']
+  'ASPHER, nested grids', 'ASPHER', 'ContactMechanics', 'failed, or out of time', 'HiGHS', 'Clarabel', 'OSQP']

@@ -3,7 +3,7 @@
 !>     judge_surfaces DIRECTORY
 !>
 !> reads DIRECTORY/area_answers.csv, a line for each answer, whose forces are in a file of its own; appends to
-!> DIRECTORY/results.csv.
+!> DIRECTORY/results.csv. Where there is a file NAME_N.reference of forces, the error of the answers is that against it.
 program judge_surfaces
   use bench_answers, only: column, value, FAILURE, MEMORY, METHOD, NAME, TIME, TOLERANCE
   use bench_records, only: bench_row, open_table, write_row
@@ -62,8 +62,7 @@ contains
     character(len=*), intent(in) :: stem, line
     integer, intent(in) :: table
     type(bench_row) :: row
-    real(dp), allocatable :: force(:)
-    integer :: unit
+    real(dp), allocatable :: force(:), reference(:)
 
     row = new_area_row(surface)
     row%method = column(line, METHOD)
@@ -73,14 +72,26 @@ contains
     row%memory = value(column(line, MEMORY))
     row%failure = column(line, FAILURE)
     if (row%failure == '') then
-      allocate (force(size(surface%gap)))
-      open (newunit=unit, file=stem//'.'//trim(column(line, METHOD))//column(line, TOLERANCE), access='stream', &
-            form='unformatted', status='old', action='read')
-      read (unit) force
-      close (unit)
+      call read_forces(stem//'.'//trim(column(line, METHOD))//column(line, TOLERANCE), size(surface%gap), force)
       call judge%judge(surface, force, row)
+      call read_forces(stem//'.reference', size(surface%gap), reference)
+      if (allocated(reference)) row%error_solver = sum(abs(force - reference))/surface%load
     end if
     call write_row(table, row)
   end subroutine judge_one
+
+  !> `force` (n); not allocated without the file.
+  subroutine read_forces(path, n, force)
+    character(len=*), intent(in) :: path
+    integer, intent(in) :: n
+    real(dp), allocatable, intent(out) :: force(:)
+    integer :: stat, unit
+
+    open (newunit=unit, file=path, access='stream', form='unformatted', status='old', action='read', iostat=stat)
+    if (stat /= 0) return
+    allocate (force(n))
+    read (unit) force
+    close (unit)
+  end subroutine read_forces
 
 end program judge_surfaces

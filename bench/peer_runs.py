@@ -1,11 +1,14 @@
-"""Runs of other solvers, each in a process of its own with one thread and limited processor time."""
+"""Runs of other solvers, each in a process of its own with limited processor time and one thread, or as many as the
+argument `threads=N` of the program says."""
 import os
-for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ[variable] = "1"
+import sys
+
+THREADS = next((int(word.partition("=")[2]) for word in sys.argv if word.startswith("threads=")), 1)
+for variable in ("OMP_NUM_THREADS", "OMP_THREAD_LIMIT", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ[variable] = str(THREADS)
 import multiprocessing
 import resource
 import signal
-import sys
 import time
 
 import numpy as np
@@ -45,7 +48,7 @@ def forget_peak():
 
 def work(pipe, timeout, solver, *problem):
     """In a process of its own: the forces, the fastest time, and the memory that the solver takes."""
-    resource.setrlimit(resource.RLIMIT_CPU, (timeout, timeout + 5))
+    resource.setrlimit(resource.RLIMIT_CPU, (THREADS * timeout, THREADS * timeout + 5))
     quiet = os.open(os.devnull, os.O_WRONLY)
     os.dup2(quiet, 1)
     os.dup2(quiet, 2)
@@ -57,9 +60,10 @@ def work(pipe, timeout, solver, *problem):
             start, processor = time.perf_counter(), time.thread_time()
             force = solver(*problem)
             spent = time.perf_counter() - start
-            # As in the benchmark, a long run counts by its processor time (that of the thread: under a
+            # As in the benchmark, a long run of one thread counts by its processor time (that of the thread: under a
             # limit the clock of the process moves in ticks).
-            times.append(min(spent, time.thread_time() - processor) if spent > 1e-3 else spent)
+            by_processor = THREADS == 1 and spent > 1e-3
+            times.append(min(spent, time.thread_time() - processor) if by_processor else spent)
         pipe.send((force, min(times), resident("VmHWM") - before, ""))
     except Exception as error:
         pipe.send((None, None, None, in_short(error)))
@@ -93,14 +97,18 @@ def run(solver, timeout, *problem):
 
 class Answers:
     """Answers as files for `judge` and `judge_surfaces`, a line for each in `table`; a solver that ran out of time on a
-    smaller problem is not run again."""
+    smaller problem is not run again. With several threads their number is part of the method's name."""
 
     def __init__(self, directory, table, timeout):
         self.directory, self.timeout, self.given_up = directory, timeout, {}
-        self.out = open(os.path.join(directory, table), "w")
+        self.out = open(os.path.join(directory, table), "w" if THREADS == 1 else "a")
         self.log = open(os.path.join(directory, "peers.log"), "a")
 
     def add(self, name, method, tolerance, family, solver, problem, mean=1.0, judged=None):
+        """The forces, or None."""
+        if THREADS > 1:
+            method = f"{method}_{THREADS}"
+        force = None
         failure = self.given_up.get((family, method))
         if not failure:
             force, seconds, memory, failure = run(solver, self.timeout, *problem)
@@ -115,3 +123,4 @@ class Answers:
         self.out.write(",".join(fields) + "\n")
         self.out.flush()
         print(*fields, file=self.log, flush=True)
+        return None if failure else force * mean

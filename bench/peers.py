@@ -20,13 +20,17 @@ import sys
 
 from peer_runs import Answers
 
+import clarabel
 import daqp
+import highspy
 import numpy as np
+import osqp
 import piqp
 import proxsuite
 import quadprog
 import scipy.linalg
 import scipy.optimize
+import scipy.sparse
 import tamaas
 
 # Processor time in seconds until a solver is stopped.
@@ -79,6 +83,60 @@ def by_quadprog(H, g, C, d, _):
     return quadprog.solve_qp(H, -g, constraints, np.append(d, np.zeros(len(g))), len(d))[0]
 
 
+def by_highs(H, g, C, d, _):
+    """Primal active set in C++, default tolerances of 1e-7."""
+    n, m = len(g), len(d)
+    model = highspy.HighsModel()
+    lp, hessian = model.lp_, model.hessian_
+    lp.num_col_, lp.num_row_ = n, m
+    lp.col_cost_, lp.col_lower_, lp.col_upper_ = g, np.zeros(n), np.full(n, highspy.kHighsInf)
+    lp.row_lower_, lp.row_upper_ = d, d
+    columns = scipy.sparse.csc_matrix(C)
+    lp.a_matrix_.format_ = highspy.MatrixFormat.kColwise
+    lp.a_matrix_.start_, lp.a_matrix_.index_, lp.a_matrix_.value_ = columns.indptr, columns.indices, columns.data
+    hessian.dim_, hessian.format_ = n, highspy.HessianFormat.kTriangular
+    hessian.start_, hessian.index_, hessian.value_ = H.indptr, H.indices, H.data
+    solver = highspy.Highs()
+    solver.setOptionValue("output_flag", False)
+    solver.setOptionValue("threads", 1)
+    solver.setOptionValue("qp_iteration_limit", 100 * n + 1000)
+    solver.passModel(model)
+    solver.run()
+    status = solver.getModelStatus()
+    if status != highspy.HighsModelStatus.kOptimal:
+        raise RuntimeError(solver.modelStatusToString(status))
+    return np.array(solver.getSolution().col_value)
+
+
+def by_clarabel(H, g, C, d, tolerance):
+    """Interior point in Rust, for sparse matrices."""
+    n, m = len(g), len(d)
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.max_threads = 1
+    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
+    rows = scipy.sparse.vstack([scipy.sparse.csc_matrix(C), -scipy.sparse.identity(n, format="csc")], format="csc")
+    solver = clarabel.DefaultSolver(H, g, rows, np.append(d, np.zeros(n)),
+                                    [clarabel.ZeroConeT(m), clarabel.NonnegativeConeT(n)], settings)
+    found = solver.solve()
+    if found.status != clarabel.SolverStatus.Solved:
+        raise RuntimeError(str(found.status))
+    return np.array(found.x)
+
+
+def by_osqp(H, g, C, d, tolerance):
+    """Operator splitting (ADMM) in C, for sparse matrices, with its polishing."""
+    n, m = len(g), len(d)
+    rows = scipy.sparse.vstack([scipy.sparse.csc_matrix(C), scipy.sparse.identity(n, format="csc")], format="csc")
+    solver = osqp.OSQP()
+    solver.setup(H, g, rows, np.append(d, np.zeros(n)), np.append(d, np.full(n, np.inf)), verbose=False,
+                 eps_abs=tolerance, eps_rel=tolerance, max_iter=1000000, polishing=True)
+    found = solver.solve()
+    if found.info.status != "solved":
+        raise RuntimeError(found.info.status)
+    return np.array(found.x)
+
+
 def by_nnls(H, g, C, d, _):
     """Non-negative least squares of scipy: Cholesky factor, equilibrium as weighted rows."""
     n, weight = len(g), 1e6
@@ -109,8 +167,13 @@ QUADRATIC = [
     ("piqp", by_piqp, "1e-12", ["1e-4", "1e-6", "1e-8", "1e-10"]),
     ("proxqp", by_proxqp, "1e-9", ["1e-3", "1e-5", "1e-7"]),
     ("quadprog", by_quadprog, "", []),
+    ("highs", by_highs, "", []),
+    ("clarabel", by_clarabel, "1e-10", ["1e-4", "1e-6", "1e-8"]),
+    ("osqp", by_osqp, "1e-3", []),
     ("scipy_nnls", by_nnls, "", []),
 ]
+# Those that take one triangle of H as a sparse matrix, by columns.
+TRIANGLE = {"highs": np.tril, "clarabel": np.triu, "osqp": np.triu}
 
 
 def read_problem(path):
@@ -159,8 +222,9 @@ def measure(answers, directory, name):
     if matrix is not None:
         H, g, C, d, mean = scaled(gap, load, tilt, moment, matrix)
         for method, solver, tolerance, looser in QUADRATIC:
+            given = scipy.sparse.csc_matrix(TRIANGLE[method](H)) if method in TRIANGLE else H
             for asked in (looser if name == "random_800" else []) + [tolerance]:
-                answers.add(name, method, asked, family, solver, (H, g, C, d, float(asked or 0)), mean)
+                answers.add(name, method, asked, family, solver, (given, g, C, d, float(asked or 0)), mean)
     if fields["periodic"] == "1" and n >= 64:
         e_star, length = float(fields["e_star"]), n * float(fields["width"])
         for asked in ROUGH_TOLERANCES if family in ("light", "heavy") else ["1e-8"]:

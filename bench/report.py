@@ -19,7 +19,9 @@ import call_tables
 from report_text import Table, cell, fit, memory, power, seconds, short, table, tidied, total
 
 KNOWN = ("quartic", "cylinder", "wave", "flat", "tilted", "lifted")
-QUADRATIC = ("daqp", "piqp", "proxqp", "quadprog", "scipy_nnls")
+# Codes for quadratic programs, and the tolerances of their rows.
+QUADRATIC = {"daqp": None, "piqp": 1e-12, "proxqp": 1e-9, "quadprog": None, "highs": None, "clarabel": 1e-10,
+             "osqp": 1e-3, "scipy_nnls": None}
 PEERS = (*QUADRATIC, "tamaas", *area_report.CODES)
 # README compares line contacts of this many points or more.
 SMALLEST_LINE = 32
@@ -28,7 +30,8 @@ BOUNDS = ("dense", "path", "fft", "surface", "condensation")
 # Other programs that write their tables themselves, by the name of their place in the manual.
 PROGRAMS = {"accuracy": "accuracy", "graded": "graded_cells", "costs": "costs", "products_of_scenes": "scenes",
             "steps": "load_steps", "stresses": "stresses", "rough": "rough_grids", "one_way": "structures",
-            "load_cases": "load_cases"}
+            "load_cases": "load_cases", "increments": "increments", "threads": "threads",
+            "threads_model": "threads_model"}
 # The rows of these that the manual has; all of the others.
 ROWS = {"graded": r"\| (?:contact|---|(?:cylinder|flat|lifted) \| (?:64|256) )"}
 # Words of the programs, and those of the manual; and columns that the manual does not have.
@@ -86,7 +89,7 @@ def largest(data, problem, most):
     return max(sizes) if sizes else 0
 
 
-def write_picture(path, data):
+def write_picture(path, data, equal):
     points = list(known_points(data))
     points += solver_points(data, "random", largest(data, "random", 800))
     for problem in ("light", "heavy"):
@@ -94,6 +97,7 @@ def write_picture(path, data):
     points += area_report.sphere_points(data)
     for problem in area_report.ROUGH:
         points += solver_points(data, problem, largest(data, problem, area_report.PICTURE))
+    points += area_report.equal_points(equal) if equal else []
     limit = {panel: max((p[4] for p in points if p[0] == panel and p[4]), default=1.0) for panel in {p[0] for p in points}}
     with open(path, "w", newline="") as out:
         writer = csv.writer(out, lineterminator="\n")
@@ -182,7 +186,7 @@ def dense_table(data):
     rows = []
     for method, text in (("active_set", "**active set**"), ("active_set_warm", "active set, warm"), ("tableau", "tableau")):
         rows.append([text, *[cell(data.one(problem=p, n=n, method=method)) for p, n in columns]])
-    for method, tolerance in (("daqp", None), ("piqp", 1e-12), ("proxqp", 1e-9), ("quadprog", None), ("scipy_nnls", None)):
+    for method, tolerance in QUADRATIC.items():
         found = [data.one(problem=p, n=n, method=method, tolerance=tolerance) for p, n in columns]
         if any(found):
             rows.append([NAMES[method], *map(cell, found)])
@@ -195,7 +199,8 @@ def dense_table(data):
     return table(["time, residual", *[f"{p} {n}" for p, n in columns]], rows)
 
 
-NAMES = {"daqp": "DAQP", "piqp": "PIQP, 1e-12", "proxqp": "ProxQP, 1e-9", "quadprog": "quadprog", "scipy_nnls": "scipy nnls"}
+NAMES = {"daqp": "DAQP", "piqp": "PIQP, 1e-12", "proxqp": "ProxQP, 1e-9", "quadprog": "quadprog", "highs": "HiGHS",
+         "clarabel": "Clarabel, 1e-10", "osqp": "OSQP, polished", "scipy_nnls": "scipy nnls"}
 
 
 def products_table(data):
@@ -344,7 +349,9 @@ def speed_text(data):
 def main():
     directory = sys.argv[1]
     data = Table(os.path.join(directory, "results.csv"))
-    write_picture(os.path.join(directory, "speed_error.csv"), data)
+    equal = os.path.join(directory, "equal", "results.csv")
+    equal = Table(equal) if os.path.exists(equal) else None
+    write_picture(os.path.join(directory, "speed_error.csv"), data, equal)
     write_growth(os.path.join(directory, "growth.csv"), data)
     area_report.write_growth(os.path.join(directory, "area_growth.csv"), data)
     parts = {"choice": choice_table(data), "orders": order_table(data), "dense": dense_table(data),
@@ -352,6 +359,7 @@ def main():
              "bound": tidied(bound_table(directory)), "conditions": condition_table(directory),
              "estimates": tidied(contents(directory, "force_error_active_set.md")),
              "speed": speed_text(data), **area_report.tables(data),
+             "equal": area_report.equal_table(equal) if equal else "",
              **call_tables.tables(contents(directory, "choices.md"), contents(directory, "costs_bodies.md")),
              **{name: tidied(contents(directory, f"{program}.md"), ROWS.get(name, ""), WORDS.get(name, ()),
                              LEFT_OUT.get(name, ()))

@@ -12,7 +12,7 @@ array fastest[5] = [5e-3, 5e-3, 5e-3, 5e-2, 5e-2]
 array slowest[5] = [1e2, 1e2, 1e2, 5e1, 5e1]
 measure = 'scaled residual'
 rows = 2
-keys = '1 3 4 6 7 8 9 10 11 12 13 14 15'
+keys = '1 3 4 6 7 8 9 16 17 18 10 11 12 13 14 15'
 key_x(k) = 0.725
-key_y(k) = 0.455 - 0.036*(k - 1)
+key_y(k) = 0.455 - 0.029*(k - 1)
 load folder."/speed_panels.gp"

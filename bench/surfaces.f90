@@ -3,7 +3,7 @@
 !>     surfaces DIRECTORY [quick] [write]
 !>
 !> appends to DIRECTORY/results.csv; `quick` omits fine grids, `write` writes the problems for other solvers, which
-!> `judge_surfaces` judges.
+!> `judge_surfaces` judges. Large ones are also solved by two threads, in elapsed time.
 program surfaces
   use bench_surface_judge, only: surface_judge
   use bench_surfaces, only: bench_surface, make_sphere, make_surface, write_surface
@@ -14,7 +14,9 @@ program surfaces
 
   !> Cells along a side.
   integer, parameter :: COARSEST = 64, FINEST = 2048, FINEST_QUICK = 256
-  integer, parameter :: PICTURE = 512, LARGE = 1024, PICTURE_QUICK = 256
+  integer, parameter :: PICTURE = 512, LARGE(2) = [1024, 2048], PICTURE_QUICK = 256
+  !> From how many cells along a side two threads solve too.
+  integer, parameter :: THREADED = 256
   !> Number of grids for the orders: the edge is anywhere in a cell.
   integer, parameter :: GRIDS = 24, GRIDS_QUICK = 8
   real(dp), parameter :: FEWEST = 24.0_dp, MOST = 600.0_dp, MOST_QUICK = 200.0_dp
@@ -71,9 +73,13 @@ contains
   subroutine run_rough(name, chosen)
     character(len=*), intent(in) :: name
     type(settings), intent(in) :: chosen
+    integer :: k
 
     call solve_surface(name, merge(PICTURE_QUICK, PICTURE, chosen%quick), TOLERANCES, chosen)
-    if (.not. chosen%quick) call solve_surface(name, LARGE, [OF_ROUGH], chosen)
+    if (chosen%quick) return
+    do k = 1, size(LARGE)
+      call solve_surface(name, LARGE(k), [OF_ROUGH], chosen)
+    end do
   end subroutine run_rough
 
   subroutine solve_surface(name, n, tolerances, chosen)
@@ -91,21 +97,24 @@ contains
     do k = 1, size(tolerances)
       call solve_and_judge(surface, tolerances(k), judge, 'iterative_fft', chosen%table)
     end do
+    if (n >= THREADED) call solve_and_judge(surface, merge(OF_SPHERE, OF_ROUGH, name == 'sphere'), judge, &
+                                            'iterative_fft_2', chosen%table, threads=2)
     call judge%free()
   end subroutine solve_surface
 
-  subroutine solve_and_judge(surface, tolerance, judge, method, table)
+  subroutine solve_and_judge(surface, tolerance, judge, method, table, threads)
     type(bench_surface), intent(in) :: surface
     real(dp), intent(in) :: tolerance
     type(surface_judge), intent(inout) :: judge
     character(len=*), intent(in) :: method
     integer, intent(in) :: table
+    integer, intent(in), optional :: threads
     type(bench_row) :: row
     real(dp), allocatable :: force(:)
 
     row = new_area_row(surface)
     row%method = method
-    call run_area(surface, tolerance, row, force)
+    call run_area(surface, tolerance, row, force, threads)
     if (allocated(force)) call judge%judge(surface, force, row)
     call write_row(table, row)
   end subroutine solve_and_judge
