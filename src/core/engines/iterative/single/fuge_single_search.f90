@@ -11,7 +11,7 @@ module fuge_single_search
   use fuge_monitor_type, only: fuge_monitor
   use fuge_operator_type, only: fuge_operator
   use fuge_search_settings, only: note_least_compliance, search_settings, MAX_STALLS, SAFETY, WRONG_ON_COARSE
-  use fuge_single_gradients, only: run_single_gradients
+  use fuge_single_gradients, only: estimate_compliance, run_single_gradients
   use fuge_single_passes, only: exchange_points, give_displacements, point_pass, set_forces, sum_forces
   use fuge_single_preconditioner, only: single_preconditioner
   use fuge_single_state, only: move_forces, refresh, single_state, start_displacements
@@ -178,6 +178,11 @@ contains
     if (lost .or. info%failed()) return
     info%iterations = info%iterations + 1
     if (.not. settings%coarse_grid) call note_least_compliance(iterate)
+    if (iterate%converged .and. settings%tolerance >= LOOSE .and. .not. (settings%coarse_grid .or. settings%prepared)) then
+      if (.not. iterate%least_compliance > 0.0_dp) call estimate_compliance(operator, preconditioner, scene, state, &
+                                                                            iterate, info)
+      if (info%failed()) return
+    end if
     call tell_progress(scene, iterate, monitor, info)
   end subroutine solve_on_set
 
