@@ -13,7 +13,7 @@ module fuge_single_gradients
   use fuge_operator_type, only: fuge_operator
   use fuge_single_passes, only: point_pass, step_all, sum_curvature, turn_direction
   use fuge_single_preconditioner, only: single_preconditioner
-  use fuge_single_state, only: refresh, single_state, SINGLE_ERROR
+  use fuge_single_state, only: refresh, restore_sum, single_state, SINGLE_ERROR
   use fuge_status, only: fuge_info
   implicit none
   private
@@ -57,6 +57,7 @@ contains
     do iteration = 0, LIMIT
       if (iterate%residual_norm < REPLACED*state%drift .and. &
           state%drift > NEGLIGIBLE*tolerance*iterate%least_magnitude) then
+        call restore_sum(scene, state, iterate)
         call refresh(operator, scene, .false., state, iterate, info)
         if (info%failed()) return
         cycle
@@ -92,8 +93,8 @@ contains
     lost = .true.
   end subroutine run_single_gradients
 
-  !> The least compliance where the forces to start from need no step: from the preconditioned residual, which stands for
-  !> their error. Errors: those of the operator.
+  !> The least compliance where the forces to start from need no step: from the preconditioned residual, which stands
+  !> for their error. Errors: those of the operator.
   subroutine estimate_compliance(operator, preconditioner, scene, state, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(single_preconditioner), intent(in) :: preconditioner

@@ -13,9 +13,9 @@ module fuge_single_passes
   implicit none
   private
 
-  public :: add_moves, center_residuals, exchange_points, give_displacements, mark_contact, set_forces, &
-    settle_distances, start_distances, step_all, sum_curvature, sum_energy, sum_forces, sum_gaps, sum_uniform, &
-    sum_with_uniform, take_displacements, turn_direction
+  public :: add_moves, center_residuals, exchange_points, give_displacements, mark_contact, scale_forces, set_forces, &
+    settle_distances, start_distances, step_all, sum_curvature, sum_energy, sum_contact_forces, &
+    sum_forces, sum_gaps, sum_uniform, sum_with_uniform, take_displacements, turn_direction
 
   !> What the passes read and change, all (n): pointers to the arrays of one search.
   type, extends(chunked_pass), public :: point_pass
@@ -68,6 +68,26 @@ contains
     pass%contact(first:last) = pass%force(first:last) > 0.0_dp
     pass%found(:, k) = [sum(pass%force(first:last), mask=pass%contact(first:last)), maxval(pass%gap(first:last))]
   end subroutine sum_forces
+
+  !> Found: the sum of the forces in the contact.
+  subroutine sum_contact_forces(pass, k, first, last)
+    class(point_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    integer :: j
+
+    if (last < first) return
+    do j = pass%segments%before(k) + 1, pass%segments%before(k + 1)
+      pass%found(1, k) = pass%found(1, k) + sum(pass%force(pass%segments%first(j):pass%segments%last(j)))
+    end do
+  end subroutine sum_contact_forces
+
+  !> Multiply the forces by `factor`.
+  subroutine scale_forces(pass, k, first, last)
+    class(point_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+
+    if (k > 0) pass%force(first:last) = pass%factor*pass%force(first:last)
+  end subroutine scale_forces
 
   !> Tensile points leave the contact, points that penetrate by more than `noise` join it; distances are too large by
   !> `shift`. Found: how many did, the sum of the forces in the new contact, and its points.

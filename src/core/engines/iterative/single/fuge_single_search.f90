@@ -14,7 +14,7 @@ module fuge_single_search
   use fuge_single_gradients, only: estimate_compliance, run_single_gradients
   use fuge_single_passes, only: exchange_points, give_displacements, point_pass, set_forces, sum_forces
   use fuge_single_preconditioner, only: single_preconditioner
-  use fuge_single_state, only: move_forces, refresh, single_state, start_displacements
+  use fuge_single_state, only: move_forces, refresh, restore_sum, single_state, start_displacements
   use fuge_stall_counter, only: stall_counter
   use fuge_status, only: fuge_info
   implicit none
@@ -135,6 +135,7 @@ contains
     if (exact) return
     exact = settings%tolerance >= LOOSE .and. state%drift <= NEGLIGIBLE*settings%tolerance*iterate%least_magnitude
     if (.not. exact) return
+    call restore_sum(scene, state, iterate)
     call state%point_to(scene, iterate, pass)
     pass%shift = state%offset
     call pass%go(give_displacements, 0)
@@ -178,7 +179,8 @@ contains
     if (lost .or. info%failed()) return
     info%iterations = info%iterations + 1
     if (.not. settings%coarse_grid) call note_least_compliance(iterate)
-    if (iterate%converged .and. settings%tolerance >= LOOSE .and. .not. (settings%coarse_grid .or. settings%prepared)) then
+    if (iterate%converged .and. settings%tolerance >= LOOSE &
+        .and. .not. (settings%coarse_grid .or. settings%prepared)) then
       if (.not. iterate%least_compliance > 0.0_dp) call estimate_compliance(operator, preconditioner, scene, state, &
                                                                             iterate, info)
       if (info%failed()) return
