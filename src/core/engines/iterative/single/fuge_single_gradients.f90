@@ -33,8 +33,8 @@ module fuge_single_gradients
 contains
 
   !> Iterate towards forces for which the gaps of the contact set are equal, as run_projected_gradients does; the
-  !> iterate is evaluated. `lost`: rounding has taken over, and another method has to go on. Errors: those of the
-  !> operator, FUGE_ERR_MEMORY.
+  !> iterate is evaluated. `lost`: rounding has taken over, and another method has to go on. The arguments are nine,
+  !> those of run_projected_gradients, the state and `lost`. Errors: those of the operator, FUGE_ERR_MEMORY.
   subroutine run_single_gradients(operator, preconditioner, scene, tolerance, to_tolerance, state, iterate, lost, info)
     class(fuge_operator), intent(in) :: operator
     type(single_preconditioner), intent(in) :: preconditioner

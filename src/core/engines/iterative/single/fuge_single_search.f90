@@ -156,7 +156,8 @@ contains
     call pass%go(set_forces, 0)
   end subroutine set_load
 
-  !> Solve for the forces of the present contact set, as solve_on_contact_set of fuge_contact_set_search.
+  !> Solve for the forces of the present contact set, as solve_on_contact_set of fuge_contact_set_search, with
+  !> ten arguments: two more are the state and whether it is `lost`.
   subroutine solve_on_set(operator, settings, preconditioner, scene, to_tolerance, monitor, state, iterate, lost, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
@@ -209,8 +210,8 @@ contains
   end subroutine exchange
 
   !> Confirm a contact set without wrong points, whose forces have the sum `total`, by a product in double precision;
-  !> `confirmed` if the residual is within
-  !> the tolerance, or has not halved since the last confirmation, `previous_residual`.
+  !> `confirmed` if the residual is within the tolerance, or has not halved since the last confirmation,
+  !> `previous_residual`. The arguments are nine, as of confirm_contact_set, the state and the sum.
   subroutine confirm(operator, settings, scene, total, previous_residual, state, iterate, confirmed, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
