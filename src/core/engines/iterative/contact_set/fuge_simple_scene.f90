@@ -51,7 +51,8 @@ contains
 
     scene%prescribed = .not. problem%is_plain()
     if (scene%prescribed) pass%datum = problem%motion(1)
-    pass%gap => problem%gap
+    ! The caller's array may begin with another number than 1.
+    pass%gap(1:size(problem%gap)) => problem%gap
     call pass%run(size(problem%gap), 2)
     extremes = [pass%largest(1), pass%largest(2)]
     call scene%rows%raise(extremes)
