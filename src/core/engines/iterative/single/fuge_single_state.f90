@@ -167,7 +167,7 @@ contains
     iterate%largest_magnitude = operator%common_magnitude(state%largest, 1.0_dp)
     iterate%least_magnitude = iterate%largest_magnitude - pass%largest(3)
     ! Distances are rounded as long as they are large.
-    state%drift = state%drift + epsilon(1.0_sp)*(abs(mean) + iterate%residual_norm + iterate%penetration)
+    state%drift = state%drift + epsilon(1.0_sp)*(abs(mean) + iterate%residual_norm)
     if (iterate%start_error < 0.0_dp) iterate%start_error = relative_error(iterate)
   end subroutine settle
 
