@@ -40,6 +40,7 @@ module lone_rank
   contains
     procedure :: points => count_surface
     procedure :: apply => apply_surface
+    procedure :: datum => surface_datum
     procedure :: magnitude => surface_magnitude
     procedure :: has_preconditioner
     procedure :: precondition => precondition_surface
@@ -147,6 +148,13 @@ contains
 
     call self%surface%apply(force, displacement, status)
   end subroutine apply_surface
+
+  function surface_datum(self) result(datum)
+    class(lone_surface), intent(in) :: self
+    real(dp) :: datum
+
+    datum = self%surface%datum()
+  end function surface_datum
 
   subroutine surface_magnitude(self, force, displacement, magnitude)
     class(lone_surface), intent(in) :: self
