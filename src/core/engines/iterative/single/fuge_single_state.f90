@@ -121,6 +121,7 @@ contains
 
     call state%point_to(scene, iterate, pass)
     call pass%go(sum_contact_forces, 1)
+    if (.not. abs(pass%total(1) - 1.0_dp) < 0.01_dp) return
     pass%factor = 1.0_dp/pass%total(1)
     call pass%go(scale_forces, 0)
   end subroutine restore_sum
