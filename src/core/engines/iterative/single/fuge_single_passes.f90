@@ -178,13 +178,14 @@ contains
     pass%found(:, k) = [sum_over_contact(pass, k, pass%distance), maxval(abs(pass%displacement(first:last)))]
   end subroutine take_displacements
 
-  !> Displacements from distances, which are too large by `shift`.
+  !> Displacements from distances, which are too large by `shift`. Found: the largest magnitude of one.
   subroutine give_displacements(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
 
-    if (k > 0) pass%displacement(first:last) = (real(pass%distance(first:last), dp) - pass%shift) &
-                                               - (pass%gap(first:last) - pass%motion)
+    pass%displacement(first:last) = (real(pass%distance(first:last), dp) - pass%shift) &
+                                    - (pass%gap(first:last) - pass%motion)
+    pass%found(1, k) = maxval(abs(pass%displacement(first:last)))
   end subroutine give_displacements
 
   !> The sum of `values` (n) over the contact points of chunk k.

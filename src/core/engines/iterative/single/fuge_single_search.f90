@@ -25,6 +25,8 @@ module fuge_single_search
   !> Displacements are exact enough for the end if their error is below the first fraction of the tolerance, and that is
   !> not less than the second number.
   real(dp), parameter :: NEGLIGIBLE = 0.1_dp, LOOSE = 1.0e-5_dp
+  !> Displacements below this fraction of the largest one that lengths were judged by are others than those.
+  real(dp), parameter :: CURRENT = 0.5_dp
   !> Larger gaps are out of the range of single precision, or their squares would be.
   real(dp), parameter :: LARGEST_GAP = 1.0e15_dp
 
@@ -138,7 +140,9 @@ contains
     call restore_sum(scene, state, iterate)
     call state%point_to(scene, iterate, pass)
     pass%shift = state%offset
-    call pass%go(give_displacements, 0)
+    call pass%go(give_displacements, 1)
+    ! The lengths that decided may have been those of much larger forces.
+    exact = pass%largest(1) >= CURRENT*state%largest
   end subroutine make_exact
 
   !> Forces of sum 1 in the contact, in which they have the sum `total` now; equal ones if that is not positive.
