@@ -8,7 +8,7 @@ module fuge_projected_gradients
     find_least_magnitude, find_penetration, is_accurate, project_residual, remove_rigid_part
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, dot_over, max_abs_over
+  use fuge_contact_segments, only: add_scaled_over, center_over, dot_and_sum_over, dot_over, max_abs_over
   use fuge_contact_step, only: step_over
   use fuge_kinds, only: dp
   use fuge_null_direction, only: find_softness, largest_energy, leave_null_direction, stores_no_energy
@@ -19,7 +19,7 @@ module fuge_projected_gradients
   implicit none
   private
 
-  public :: precondition_residual, run_projected_gradients, update_direction
+  public :: precondition_residual, run_projected_gradients
 
   !> The contact set can be judged once the errors of the forces are below this fraction of the
   !> largest tension, or those of the gaps below this fraction of the deepest penetration.
@@ -93,7 +93,7 @@ contains
         call check_preconditioner_energy(iterate, energy, info)
         return
       end if
-      call update_direction(iterate%segments, energy/previous, iterate%work, iterate%direction)
+      call add_scaled_over(iterate%segments, energy/previous, iterate%work, iterate%direction)
       call advance_along_direction(operator, scene, tolerance, energy, iterate, step_length, info)
       if (.not. step_length > 0.0_dp) return
       call iterate%lanczos%add(step_length, energy/previous)
@@ -136,21 +136,6 @@ contains
                                 energy, info)
     end if
   end subroutine precondition_residual
-
-  !> direction = correction + factor*direction on the contact set.
-  pure subroutine update_direction(segments, factor, correction, direction)
-    type(contact_segments), intent(in) :: segments
-    real(dp), intent(in) :: factor
-    real(dp), intent(in), contiguous :: correction(:)
-    real(dp), intent(inout), contiguous :: direction(:)
-    integer :: i, k
-
-    do i = 1, size(segments%first)
-      do k = segments%first(i), segments%last(i)
-        direction(k) = correction(k) + factor*direction(k)
-      end do
-    end do
-  end subroutine update_direction
 
   !> Go to the minimum of the energy along the search direction.
   !>
