@@ -250,17 +250,18 @@ contains
     class(iterate_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
     real(dp), intent(inout) :: found(:)
-    integer :: end_before, i
+    integer :: end_before, i, j
 
     found = 0.0_dp
     associate (scene => pass%scene, iterate => pass%iterate, segments => pass%iterate%segments)
       end_before = first - 1
       do i = segments%before(k) + 1, segments%before(k + 1)
-        associate (a => segments%first(i), b => segments%last(i))
-          iterate%residual(end_before + 1:a - 1) = 0.0_dp
-          iterate%residual(a:b) = scene%gap(a:b) + iterate%displacement(a:b)
-          end_before = b
-        end associate
+        iterate%residual(end_before + 1:segments%first(i) - 1) = 0.0_dp
+        end_before = segments%last(i)
+        ! A loop, because array assignments between components of pointers go through a copy.
+        do j = segments%first(i), end_before
+          iterate%residual(j) = scene%gap(j) + iterate%displacement(j)
+        end do
       end do
       iterate%residual(end_before + 1:last) = 0.0_dp
       if (.not. allocated(scene%play)) return

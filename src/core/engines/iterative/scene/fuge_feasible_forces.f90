@@ -287,9 +287,12 @@ contains
     class(iterate_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
     real(dp), intent(inout) :: found(:)
+    integer :: i
 
     if (k < 1) found = 0.0_dp
-    where (pass%iterate%contact(first:last)) pass%iterate%force(first:last) = 1.0_dp/pass%value
+    do i = first, last
+      if (pass%iterate%contact(i)) pass%iterate%force(i) = 1.0_dp/pass%value
+    end do
   end subroutine set_equal_forces
 
   !> Forces with the resultants of the scene, on the set, or on the set and the points of scene%balance.
