@@ -80,7 +80,8 @@ contains
     sums = [inner + sum(products), total + sum(values)]
   end subroutine dot_and_sum_on_runs
 
-  !> Subtract `factor` times `x` from `y`; `inner` = the inner product of the new `y` and `z`.
+  !> Subtract `factor` times `x` from `y`; `inner` = the inner product of the new `y` and `z`. The arguments are nine,
+  !> because one pass does both, and the runs are three of them.
   pure subroutine subtract_and_dot_on_runs(runs, first, last, n, factor, x, y, z, inner)
     integer, intent(in) :: runs, first(runs), last(runs), n
     real(dp), intent(in) :: factor, x(n), z(n)

@@ -73,6 +73,13 @@ module fuge_warm_start
     procedure :: do_chunk => mix_chunk
   end type mixed_pass
 
+  !> Gives the `values` of a step: forces, or where there are none and points have one stop, minus the gaps.
+  type, extends(chunked_pass) :: step_pass
+    real(dp), pointer, contiguous :: force(:) => null(), gap(:) => null(), values(:) => null()
+  contains
+    procedure :: do_chunk => store_chunk
+  end type step_pass
+
   !> Extrapolates forces (extrapolate_forces).
   type, extends(chunked_pass) :: extrapolation
     real(dp), pointer, contiguous :: last(:) => null(), before(:) => null(), force(:) => null()
@@ -108,8 +115,9 @@ contains
     class(load_history), intent(inout) :: self
     type(fuge_problem), intent(in) :: problem
     type(point_space), intent(in) :: space
-    type(fuge_solution), intent(in) :: solution
-    type(load_step) :: step
+    type(fuge_solution), intent(in), target :: solution
+    type(load_step), target :: step
+    type(step_pass) :: pass
     logical :: forgotten
     integer :: j, stat
 
@@ -120,10 +128,11 @@ contains
       call self%forget()
       return
     end if
-    step%values = solution%force
-    if (.not. allocated(problem%gap_upper)) then
-      where (.not. abs(solution%force) > 0.0_dp) step%values = -max(solution%gap, 0.0_dp)
-    end if
+    ! The arrays of a solution may begin with another number than 1.
+    pass%force(1:size(solution%force)) => solution%force
+    if (.not. allocated(problem%gap_upper)) pass%gap(1:size(solution%gap)) => solution%gap
+    pass%values => step%values
+    call pass%run(size(step%values), 0)
     do j = 1, size(step%resultant)
       if (.not. is_prescribed(problem, j)) then
         step%resultant(j) = problem%resultant(j)
@@ -138,6 +147,19 @@ contains
     if (differs(step, self%last)) call move_step(self%last, self%before)
     call move_step(step, self%last)
   end subroutine store
+
+  subroutine store_chunk(self, k, first, last)
+    class(step_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+    integer :: i
+
+    if (k < 1) return
+    do i = first, last
+      self%values(i) = self%force(i)
+      if (.not. associated(self%gap)) cycle
+      if (.not. abs(self%force(i)) > 0.0_dp) self%values(i) = -max(self%gap(i), 0.0_dp)
+    end do
+  end subroutine store_chunk
 
   pure subroutine move_step(from, to)
     type(load_step), intent(inout) :: from, to
