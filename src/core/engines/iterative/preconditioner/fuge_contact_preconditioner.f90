@@ -13,7 +13,7 @@ module fuge_contact_preconditioner
   use fuge_number_text, only: text
   use fuge_operator_products, only: precondition
   use fuge_operator_type, only: fuge_operator
-  use fuge_point_chunks, only: chunked_pass
+  use fuge_point_chunks, only: chunk_count, chunked_pass
   use fuge_preconditioner_levels, only: apply_levels, count_contacts, create_level, exists, level_force, &
     preconditioner_level
   use fuge_point_space, only: point_space
@@ -329,6 +329,10 @@ contains
     real(dp), intent(inout), contiguous, target :: values(:)
     type(value_pass) :: pass
 
+    if (chunk_count(size(values)) == 1) then
+      values = source
+      return
+    end if
     pass%source => source
     pass%values => values
     call pass%run(size(values), 0)
