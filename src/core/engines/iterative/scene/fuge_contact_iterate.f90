@@ -102,6 +102,14 @@ module fuge_contact_iterate
     procedure :: do_chunk
   end type iterate_pass
 
+  !> Finds the sum of the forces, then adds `shift` to the displacements.
+  type, extends(chunked_pass) :: datum_pass
+    real(dp), pointer, contiguous :: force(:) => null(), displacement(:) => null()
+    real(dp) :: shift = 0.0_dp
+  contains
+    procedure :: do_chunk => do_datum
+  end type datum_pass
+
   abstract interface
     !> Chunk `k`, the points `first` .. `last`; what it finds is added to `found`, which is zero before, or raises it.
     subroutine chunk_operation(pass, k, first, last, found)
@@ -581,8 +589,38 @@ contains
     call multiply(operator, force, displacement, info)
     if (.not. with_datum .or. info%failed()) return
     space = operator%ranks()
-    displacement = displacement + operator%datum()*space%total(sum(force))
+    if (chunk_count(size(force)) == 1) then
+      displacement = displacement + operator%datum()*space%total(sum(force))
+    else
+      call add_datum(operator%datum(), space, force, displacement)
+    end if
   end subroutine compute_displacement
+
+  !> Add to the displacements of several chunks those by the `datum`.
+  subroutine add_datum(datum, space, force, displacement)
+    real(dp), intent(in) :: datum
+    type(point_space), intent(in) :: space
+    real(dp), intent(in), contiguous, target :: force(:)
+    real(dp), intent(inout), contiguous, target :: displacement(:)
+    type(datum_pass) :: pass
+
+    pass%force => force
+    call pass%run(size(force), 1)
+    pass%shift = datum*space%total(pass%total(1))
+    pass%displacement => displacement
+    call pass%run(size(force), 1)
+  end subroutine add_datum
+
+  subroutine do_datum(self, k, first, last)
+    class(datum_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+
+    if (associated(self%displacement)) then
+      self%displacement(first:last) = self%displacement(first:last) + self%shift
+    else
+      self%found(1, k) = sum(self%force(first:last))
+    end if
+  end subroutine do_datum
 
   !> Gap of a point in the deformed state; negative where the point penetrates. Scaled as in
   !> contact_iterate.
