@@ -130,7 +130,12 @@ contains
     real(dp), intent(out) :: found(:)
     integer :: i, n
 
-    n = size(self%iterate%force)
+    ! Where only search directions count, there are no forces.
+    if (allocated(self%iterate%force)) then
+      n = size(self%iterate%force)
+    else
+      n = size(self%iterate%work)
+    end if
     if (chunk_count(n) == 1) then
       found = 0.0_dp
       call operation(self, 1, 1, n, found)
