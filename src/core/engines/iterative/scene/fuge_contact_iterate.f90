@@ -14,9 +14,9 @@ module fuge_contact_iterate
   implicit none
   private
 
-  public :: compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, find_penetration, &
-    is_accurate, largest_rigid_magnitude, overlap_at, project_residual, relative_error, remove_rigid_part, &
-    rounding_force, start_iterate
+  public :: compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
+    find_penetration, is_accurate, largest_rigid_magnitude, overlap_at, project_residual, relative_error, &
+    remove_rigid_part, rounding_force, start_iterate
 
   !> Gaps less rigid displacements may be rounded by this many units in the last place of their terms.
   real(dp), parameter :: ROUNDINGS = 2.0_dp
