@@ -14,6 +14,7 @@ module fuge_halfplane_fft
   use fuge_line_plan, only: line_plan
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
+  use fuge_point_chunks, only: chunk_count, chunked_pass
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
   implicit none
   private
@@ -49,6 +50,15 @@ module fuge_halfplane_fft
     procedure, private :: copy
     generic :: assignment(=) => copy
   end type fuge_halfplane_operator
+
+  !> Finds the largest magnitude of `values` and the sum of those of `force`, or without `force` sets all values to
+  !> `least`. The pointers are not contiguous, because contiguous arguments would be copies of those of the operator.
+  type, extends(chunked_pass) :: magnitude_pass
+    real(dp), pointer :: force(:) => null(), values(:) => null()
+    real(dp) :: least = 0.0_dp
+  contains
+    procedure :: do_chunk => measure_chunk
+  end type magnitude_pass
 
 contains
 
@@ -171,8 +181,38 @@ contains
     real(dp), intent(in) :: force(:), displacement(:)
     real(dp), intent(out) :: magnitude(:)
 
-    magnitude = max(maxval(abs(displacement)), least_magnitude(self%line, sum(abs(force))))
+    if (chunk_count(size(force)) == 1) then
+      magnitude = max(maxval(abs(displacement)), least_magnitude(self%line, sum(abs(force))))
+    else
+      call measure_in_chunks(self%line, force, displacement, magnitude)
+    end if
   end subroutine halfplane_magnitude
+
+  subroutine measure_in_chunks(line, force, displacement, magnitude)
+    type(halfplane_line), intent(in) :: line
+    real(dp), intent(in), target :: force(:), displacement(:)
+    real(dp), intent(out), target :: magnitude(:)
+    type(magnitude_pass) :: pass
+
+    pass%force => force
+    pass%values => displacement
+    call pass%run(size(force), 2)
+    pass%least = max(pass%largest(1), least_magnitude(line, pass%total(2)))
+    pass%force => null()
+    pass%values => magnitude
+    call pass%run(size(magnitude), 0)
+  end subroutine measure_in_chunks
+
+  subroutine measure_chunk(self, k, first, last)
+    class(magnitude_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+
+    if (associated(self%force)) then
+      self%found(:, k) = [maxval(abs(self%values(first:last))), sum(abs(self%force(first:last)))]
+    else
+      self%values(first:last) = self%least
+    end if
+  end subroutine measure_chunk
 
   !> The inverse on a periodic surface, exact except for the constant. A free surface is taken
   !> for periodic, which changes little, because the coefficients of the inverse fall off

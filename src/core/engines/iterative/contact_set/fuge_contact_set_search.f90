@@ -240,11 +240,13 @@ contains
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
+    real(dp) :: compliance
 
     call settings%check_limit(info)
     if (info%failed()) return
-    call preconditioner%set(operator, iterate%contact, .not. iterate%prescribed, maxval(abs(iterate%displacement)), &
-                            info)
+    compliance = 0.0_dp
+    if (.not. operator%has_preconditioner()) compliance = maxval(abs(iterate%displacement))
+    call preconditioner%set(operator, iterate%contact, .not. iterate%prescribed, compliance, info)
     if (allocated(scene%modes) .and. .not. info%failed()) then
       call preconditioner%set_modes(operator, iterate%projection, iterate%segments, iterate%contact, info)
     end if

@@ -7,6 +7,7 @@
 module fuge_warm_start
   use fuge_data_scales, only: is_prescribed
   use fuge_kinds, only: dp
+  use fuge_point_chunks, only: chunked_pass
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_point_space, only: point_space
   implicit none
@@ -64,6 +65,30 @@ module fuge_warm_start
     procedure :: forget
   end type load_history
 
+  !> Finds the largest magnitude of `values`, or with a `scale` their mixed sum.
+  type, extends(chunked_pass) :: mixed_pass
+    real(dp), pointer :: values(:) => null()
+    real(dp) :: scale = 0.0_dp
+  contains
+    procedure :: do_chunk => mix_chunk
+  end type mixed_pass
+
+  !> Gives the `values` of a step: forces, or where there are none and points have one stop, minus the gaps.
+  type, extends(chunked_pass) :: step_pass
+    real(dp), pointer, contiguous :: force(:) => null(), gap(:) => null(), values(:) => null()
+  contains
+    procedure :: do_chunk => store_chunk
+  end type step_pass
+
+  !> Extrapolates forces (extrapolate_forces).
+  type, extends(chunked_pass) :: extrapolation
+    real(dp), pointer, contiguous :: last(:) => null(), before(:) => null(), force(:) => null()
+    real(dp) :: steps = 0.0_dp, greatest = 0.0_dp
+    logical :: two_sided = .false.
+  contains
+    procedure :: do_chunk => extrapolate_chunk
+  end type extrapolation
+
 contains
 
   !> Forget all solutions.
@@ -90,8 +115,9 @@ contains
     class(load_history), intent(inout) :: self
     type(fuge_problem), intent(in) :: problem
     type(point_space), intent(in) :: space
-    type(fuge_solution), intent(in) :: solution
-    type(load_step) :: step
+    type(fuge_solution), intent(in), target :: solution
+    type(load_step), target :: step
+    type(step_pass) :: pass
     logical :: forgotten
     integer :: j, stat
 
@@ -102,10 +128,11 @@ contains
       call self%forget()
       return
     end if
-    step%values = solution%force
-    if (.not. allocated(problem%gap_upper)) then
-      where (.not. abs(solution%force) > 0.0_dp) step%values = -max(solution%gap, 0.0_dp)
-    end if
+    ! The arrays of a solution may begin with another number than 1.
+    pass%force(1:size(solution%force)) => solution%force
+    if (.not. allocated(problem%gap_upper)) pass%gap(1:size(solution%gap)) => solution%gap
+    pass%values => step%values
+    call pass%run(size(step%values), 0)
     do j = 1, size(step%resultant)
       if (.not. is_prescribed(problem, j)) then
         step%resultant(j) = problem%resultant(j)
@@ -120,6 +147,19 @@ contains
     if (differs(step, self%last)) call move_step(self%last, self%before)
     call move_step(step, self%last)
   end subroutine store
+
+  subroutine store_chunk(self, k, first, last)
+    class(step_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+    integer :: i
+
+    if (k < 1) return
+    do i = first, last
+      self%values(i) = self%force(i)
+      if (.not. associated(self%gap)) cycle
+      if (.not. abs(self%force(i)) > 0.0_dp) self%values(i) = -max(self%gap(i), 0.0_dp)
+    end do
+  end subroutine store_chunk
 
   pure subroutine move_step(from, to)
     type(load_step), intent(inout) :: from, to
@@ -165,21 +205,37 @@ contains
   end function fingerprint
 
   !> A sum with weights that depend on the position; scaled, so that it does not overflow.
-  pure function mixed_sum(values) result(total)
-    real(dp), intent(in) :: values(:)
+  function mixed_sum(values) result(total)
+    real(dp), intent(in), target :: values(:)
     real(dp) :: total
-    real(dp) :: scale
-    integer :: k
+    type(mixed_pass) :: pass
 
     total = 0.0_dp
     if (size(values) < 1) return
-    scale = maxval(abs(values))
-    if (.not. scale > 0.0_dp) return
-    do k = 1, size(values)
-      total = total + real(1 + modulo(k, 61), dp)*(values(k)/scale)
-    end do
-    total = total/real(size(values), dp) + exponent(scale) + fraction(scale)
+    pass%values => values
+    call pass%run(size(values), 1)
+    pass%scale = pass%largest(1)
+    if (.not. pass%scale > 0.0_dp) return
+    call pass%run(size(values), 1)
+    total = pass%total(1)/real(size(values), dp) + exponent(pass%scale) + fraction(pass%scale)
   end function mixed_sum
+
+  subroutine mix_chunk(self, k, first, last)
+    class(mixed_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+    real(dp) :: total
+    integer :: i
+
+    if (.not. self%scale > 0.0_dp) then
+      self%found(1, k) = maxval(abs(self%values(first:last)))
+      return
+    end if
+    total = 0.0_dp
+    do i = first, last
+      total = total + real(1 + modulo(i, 61), dp)*(self%values(i)/self%scale)
+    end do
+    self%found(1, k) = total
+  end subroutine mix_chunk
 
   !> Forces to start from, `start` (n), in the units of the problem; unallocated if there are none, or if the step is so
   !> long that they were refused before.
@@ -187,10 +243,11 @@ contains
   !> Extrapolated if resultants and prescribed motions go on in the direction of the last step, or back, and nothing
   !> else has changed; otherwise the last forces, scaled with the resultants.
   subroutine predict(self, problem, space, start)
-    class(load_history), intent(inout) :: self
+    class(load_history), intent(inout), target :: self
     type(fuge_problem), intent(in) :: problem
     type(point_space), intent(in) :: space
-    real(dp), allocatable, intent(inout) :: start(:)
+    real(dp), allocatable, intent(inout), target :: start(:)
+    type(extrapolation) :: pass
     real(dp) :: steps
     logical :: extrapolate
     integer :: stat
@@ -208,13 +265,26 @@ contains
       return
     end if
     if (extrapolate) then
-      call extrapolate_forces(self%last%values, self%before%values, steps, allocated(problem%gap_upper), &
-                              space%largest(maxval(self%last%values)), start)
+      pass%last => self%last%values
+      pass%before => self%before%values
+      pass%force => start
+      pass%steps = steps
+      pass%greatest = space%largest(maxval(self%last%values))
+      pass%two_sided = allocated(problem%gap_upper)
+      call pass%run(size(start), 0)
     else
       start = load_factor(self%last, problem)*self%last%values
       if (.not. allocated(problem%gap_upper)) start = max(start, 0.0_dp)
     end if
   end subroutine predict
+
+  subroutine extrapolate_chunk(self, k, first, last)
+    class(extrapolation), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+
+    if (k > 0) call extrapolate_forces(self%last(first:last), self%before(first:last), self%steps, self%two_sided, &
+                                       self%greatest, self%force(first:last))
+  end subroutine extrapolate_chunk
 
   !> Does a solution have the size of the problem?
   pure function fits(step, problem)

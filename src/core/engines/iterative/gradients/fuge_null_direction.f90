@@ -4,7 +4,7 @@
 !> nothing on this set can stop them. Either some force changes its sign, and its point leaves the set, or none does,
 !> and the contact problem has no solution (Farkas' lemma, for a convex quadratic program).
 module fuge_null_direction
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, iterate_pass
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: max_abs_over
   use fuge_kinds, only: dp
@@ -54,8 +54,29 @@ contains
                                                         softness_so_far(scene, iterate))
       end if
     end if
-    iterate%softness = max(iterate%softness, iterate%segments%space%largest(maxval(abs(iterate%work)))/force)
+    iterate%softness = max(iterate%softness, largest_work(iterate)/force)
   end subroutine find_softness
+
+  !> The largest magnitude of the displacements iterate%work, at all points.
+  function largest_work(iterate) result(largest)
+    type(contact_iterate), intent(in), target :: iterate
+    real(dp) :: largest
+    type(iterate_pass) :: pass
+    real(dp) :: found(1)
+
+    pass%iterate => iterate
+    call pass%go(find_largest_work, 0, found)
+    largest = iterate%segments%space%largest(found(1))
+  end function largest_work
+
+  !> Found: the largest magnitude of a displacement.
+  subroutine find_largest_work(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+
+    if (k > 0) found(1) = maxval(abs(pass%iterate%work(first:last)))
+  end subroutine find_largest_work
 
   !> The largest displacement over the largest force; 0 without forces, or where displacements include rigid ones.
   function softness_so_far(scene, iterate) result(softness)
@@ -90,16 +111,30 @@ contains
 
   !> The sum of the magnitudes of the forces of the search direction.
   function total_force(iterate) result(total)
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_iterate), intent(in), target :: iterate
     real(dp) :: total
+    type(iterate_pass) :: pass
+    real(dp) :: found(1)
+
+    pass%iterate => iterate
+    call pass%go(sum_magnitudes, 1, found)
+    total = iterate%segments%space%total(found(1))
+  end function total_force
+
+  !> Found: the sum of the magnitudes of the forces of the search direction.
+  subroutine sum_magnitudes(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
     integer :: i
 
-    total = 0.0_dp
-    do i = 1, size(iterate%segments%first)
-      total = total + sum(abs(iterate%direction(iterate%segments%first(i):iterate%segments%last(i))))
-    end do
-    total = iterate%segments%space%total(total)
-  end function total_force
+    if (last < first) return
+    associate (segments => pass%iterate%segments)
+      do i = segments%before(k) + 1, segments%before(k + 1)
+        found(1) = found(1) + sum(abs(pass%iterate%direction(segments%first(i):segments%last(i))))
+      end do
+    end associate
+  end subroutine sum_magnitudes
 
   !> How much point `k` loses of its force, of the sign that its stop gives, by a step of 1 against the search
   !> direction; nothing where it is tied.

@@ -10,13 +10,13 @@ module fuge_probed_compliance
     remove_rigid_part
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
-  use fuge_contact_segments, only: contact_segments, dot_over, max_abs_over
+  use fuge_contact_segments, only: add_scaled_over, contact_segments, dot_over, max_abs_over
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_null_direction, only: find_softness, softness_so_far, stores_no_energy
   use fuge_operator_type, only: fuge_operator
-  use fuge_projected_gradients, only: precondition_residual, update_direction
+  use fuge_projected_gradients, only: precondition_residual
   use fuge_status, only: fuge_info, require_memory
   implicit none
   private
@@ -164,7 +164,7 @@ contains
       end if
       ! Without energy left only rounding would follow.
       if (.not. energy > epsilon(first)*first) exit
-      call update_direction(probe%segments, energy/previous, probe%work, probe%direction)
+      call add_scaled_over(probe%segments, energy/previous, probe%work, probe%direction)
       call compute_displacement(operator, counts_datum(scene, probe), probe%direction, probe%work, info)
       if (.not. info%failed()) call find_softness(operator, scene, probe, info)
       value = 0.0_dp

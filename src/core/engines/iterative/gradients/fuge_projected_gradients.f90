@@ -5,10 +5,10 @@
 !> modes the resultants are kept, and the gaps become a rigid motion, which displacements then include.
 module fuge_projected_gradients
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, &
-    find_least_magnitude, find_penetration, is_accurate, project_residual, remove_rigid_part
+    find_least_magnitude, find_penetration, is_accurate, iterate_pass, project_residual, remove_rigid_part
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_segments, only: center_over, contact_segments, dot_and_sum_over, dot_over, max_abs_over
+  use fuge_contact_segments, only: add_scaled_over, center_over, dot_and_sum_over, dot_over, max_abs_over
   use fuge_contact_step, only: step_over
   use fuge_kinds, only: dp
   use fuge_null_direction, only: find_softness, largest_energy, leave_null_direction, stores_no_energy
@@ -19,7 +19,7 @@ module fuge_projected_gradients
   implicit none
   private
 
-  public :: precondition_residual, run_projected_gradients, update_direction
+  public :: precondition_residual, run_projected_gradients
 
   !> The contact set can be judged once the errors of the forces are below this fraction of the
   !> largest tension, or those of the gaps below this fraction of the deepest penetration.
@@ -67,7 +67,7 @@ contains
     call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
     limit = min(ITERATIONS_PER_POINT*min(iterate%segments%points, MAX_ITERATIONS) + EXTRA_ITERATIONS, MAX_ITERATIONS)
-    iterate%direction = 0.0_dp
+    call clear_direction(iterate)
     previous = 1.0_dp
     do iteration = 0, limit
       iterate%converged = is_accurate(iterate, tolerance)
@@ -93,7 +93,7 @@ contains
         call check_preconditioner_energy(iterate, energy, info)
         return
       end if
-      call update_direction(iterate%segments, energy/previous, iterate%work, iterate%direction)
+      call add_scaled_over(iterate%segments, energy/previous, iterate%work, iterate%direction)
       call advance_along_direction(operator, scene, tolerance, energy, iterate, step_length, info)
       if (.not. step_length > 0.0_dp) return
       call iterate%lanczos%add(step_length, energy/previous)
@@ -105,6 +105,25 @@ contains
       end if
     end do
   end subroutine run_projected_gradients
+
+  !> No search direction at any point.
+  subroutine clear_direction(iterate)
+    type(contact_iterate), intent(inout), target :: iterate
+    type(iterate_pass) :: pass
+    real(dp) :: none(0)
+
+    pass%iterate => iterate
+    call pass%go(clear_in_chunk, 0, none)
+  end subroutine clear_direction
+
+  subroutine clear_in_chunk(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+
+    if (k < 1) found = 0.0_dp
+    pass%iterate%direction(first:last) = 0.0_dp
+  end subroutine clear_in_chunk
 
   !> Is the length that residuals are compared with to be measured anew before this iteration? At the end, and seldom
   !> before; with one translation the load gives it its size from the start.
@@ -136,21 +155,6 @@ contains
                                 energy, info)
     end if
   end subroutine precondition_residual
-
-  !> direction = correction + factor*direction on the contact set.
-  pure subroutine update_direction(segments, factor, correction, direction)
-    type(contact_segments), intent(in) :: segments
-    real(dp), intent(in) :: factor
-    real(dp), intent(in), contiguous :: correction(:)
-    real(dp), intent(inout), contiguous :: direction(:)
-    integer :: i, k
-
-    do i = 1, size(segments%first)
-      do k = segments%first(i), segments%last(i)
-        direction(k) = correction(k) + factor*direction(k)
-      end do
-    end do
-  end subroutine update_direction
 
   !> Go to the minimum of the energy along the search direction.
   !>

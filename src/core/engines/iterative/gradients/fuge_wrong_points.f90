@@ -1,11 +1,11 @@
 !> Points in the wrong state: in contact although their force pulls away from the stop, or open although they penetrate
 !> a stop. How many there are, which are worst, and their exchange.
 module fuge_wrong_points
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap
+  use fuge_contact_iterate, only: contact_iterate, deformed_gap, iterate_pass
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_kinds, only: dp
   use fuge_limited_points, only: choose_limited_contact, count_wrong_limited, excess_is_decided, greatest_excess
-  use fuge_set_exchange, only: exchange
+  use fuge_point_chunks, only: chunked_pass
   use fuge_shared_exchange, only: exchange_in_line
   use fuge_status, only: fuge_info, require_memory
   implicit none
@@ -17,64 +17,121 @@ module fuge_wrong_points
   !> Partial maxima are faster than one.
   integer, parameter :: LANES = 4
 
+  !> Marks the wrong points of `iterate`, and measures its states or exchanges the wrong points.
+  type, extends(chunked_pass) :: exchange_pass
+    type(contact_scene), pointer :: scene => null()
+    type(contact_iterate), pointer :: iterate => null()
+    real(dp) :: noise = 0.0_dp
+    logical, pointer, contiguous :: tensile(:) => null(), penetrating(:) => null()
+    real(dp), pointer, contiguous :: measure(:) => null()
+  contains
+    procedure :: do_chunk => mark_and_exchange
+  end type exchange_pass
+
 contains
 
   !> The contact set that the forces to start from suggest; tied points always belong to it. Where a load must be
   !> carried and there are no such forces, as when the contact of the last solve is excluded now, it is every point that
   !> takes part.
   subroutine choose_contact(scene, iterate)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(inout) :: iterate
-    integer :: k
+    type(contact_scene), intent(in), target :: scene
+    type(contact_iterate), intent(inout), target :: iterate
+    type(iterate_pass) :: pass
+    real(dp) :: points(1)
 
     if (scene%has_limits()) then
       call choose_limited_contact(scene, iterate)
       return
     end if
-    iterate%contact = iterate%force > 0.0_dp
-    if (allocated(scene%play)) then
-      do k = 1, size(scene%play)
-        iterate%at_upper(k) = iterate%force(k) < 0.0_dp .and. scene%play(k) < huge(1.0_dp) .and. .not. scene%is_tied(k)
-        iterate%contact(k) = iterate%contact(k) .or. iterate%at_upper(k) .or. scene%is_tied(k)
-      end do
-    end if
-    if (allocated(scene%excluded)) iterate%contact = iterate%contact .and. .not. scene%excluded
+    pass%scene => scene
+    pass%iterate => iterate
+    call pass%go(choose_points, 1, points)
     if (scene%prescribed) return
-    if (scene%rows%anywhere(any(iterate%contact))) return
+    if (scene%rows%anywhere(points(1) > 0.0_dp)) return
     iterate%contact = .true.
     if (allocated(scene%excluded)) iterate%contact = .not. scene%excluded
   end subroutine choose_contact
 
+  !> Contact where forces suggest it. Found: the number of these points.
+  subroutine choose_points(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    integer :: i
+
+    if (k < 1) return
+    associate (scene => pass%scene, contact => pass%iterate%contact, force => pass%iterate%force)
+      contact(first:last) = force(first:last) > 0.0_dp
+      if (allocated(scene%play)) then
+        do i = first, last
+          associate (at_upper => pass%iterate%at_upper(i))
+            at_upper = force(i) < 0.0_dp .and. scene%play(i) < huge(1.0_dp) .and. .not. scene%is_tied(i)
+            contact(i) = contact(i) .or. at_upper .or. scene%is_tied(i)
+          end associate
+        end do
+      end if
+      if (allocated(scene%excluded)) contact(first:last) = contact(first:last) .and. .not. scene%excluded(first:last)
+      found(1) = real(count(contact(first:last)), dp)
+    end associate
+  end subroutine choose_points
+
   !> Number of points in the contact set with a tensile force and of open points that penetrate by
   !> more than `noise`.
   function count_wrong_points(scene, noise, iterate) result(wrong)
-    type(contact_scene), intent(in) :: scene
+    type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: noise
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_iterate), intent(in), target :: iterate
     integer :: wrong
-    integer :: k
+    type(iterate_pass) :: pass
+    real(dp) :: found(1)
 
     if (scene%has_limits()) then
       wrong = count_wrong_limited(scene, noise, iterate)
       return
     end if
-    if (.not. allocated(scene%play)) then
-      wrong = count(iterate%contact .and. iterate%force < -iterate%tension_noise) &
-              + count(.not. iterate%contact &
-                      .and. deformed_gap(scene%gap, iterate%displacement, iterate%motion) < -noise)
-      wrong = scene%rows%total_count(wrong)
-      return
-    end if
-    wrong = 0
-    do k = 1, size(scene%gap)
-      if (iterate%contact(k)) then
-        if (pulls_away(scene, iterate, k)) wrong = wrong + 1
-      else if (penetrated_stop(scene, noise, iterate, k) /= 0) then
-        wrong = wrong + 1
-      end if
-    end do
-    wrong = scene%rows%total_count(wrong)
+    pass%scene => scene
+    pass%iterate => iterate
+    pass%value = noise
+    call pass%go(count_in_chunk, 1, found)
+    wrong = scene%rows%total_count(nint(found(1)))
   end function count_wrong_points
+
+  !> Found: the number of wrong points; the value of the pass is the noise.
+  subroutine count_in_chunk(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    integer :: i, wrong
+
+    if (k < 1) return
+    wrong = 0
+    associate (scene => pass%scene, iterate => pass%iterate)
+      if (.not. allocated(scene%play)) then
+        do i = first, last
+          if (pulls_or_penetrates(iterate%contact(i), iterate%force(i), iterate%tension_noise, scene%gap(i), &
+                                  iterate%displacement(i), iterate%motion, pass%value)) wrong = wrong + 1
+        end do
+      else
+        do i = first, last
+          if (iterate%contact(i)) then
+            if (pulls_away(scene, iterate, i)) wrong = wrong + 1
+          else if (penetrated_stop(scene, pass%value, iterate, i) /= 0) then
+            wrong = wrong + 1
+          end if
+        end do
+      end if
+    end associate
+    found(1) = real(wrong, dp)
+  end subroutine count_in_chunk
+
+  !> Does a point with one stop pull, in contact, by more than `tension`, or penetrate, open, by more than `noise`?
+  pure function pulls_or_penetrates(contact, force, tension, gap, displacement, motion, noise) result(wrong)
+    logical, intent(in) :: contact
+    real(dp), intent(in) :: force, tension, gap, displacement, motion, noise
+    logical :: wrong
+
+    wrong = merge(force < -tension, deformed_gap(gap, displacement, motion) < -noise, contact)
+  end function pulls_or_penetrates
 
   !> Does the force of point `k`, in contact, pull away from its stop?
   pure function pulls_away(scene, iterate, k)
@@ -122,60 +179,83 @@ contains
   !> Tensile points leave the contact set, points that penetrate by more than `noise` join it; with
   !> `extrapolate` more leave and fewer join, as fuge_set_exchange explains. Error: FUGE_ERR_MEMORY.
   subroutine exchange_wrong_points(scene, noise, extrapolate, iterate, info)
-    type(contact_scene), intent(in) :: scene
+    type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: noise
     logical, intent(in) :: extrapolate
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_iterate), intent(inout), target :: iterate
     type(fuge_info), intent(inout) :: info
-    logical, allocatable :: tensile(:), penetrating(:)
-    real(dp), allocatable :: measure(:)
-    integer :: k, stat
+    type(exchange_pass) :: pass
+    logical, allocatable, target :: tensile(:), penetrating(:)
+    real(dp), allocatable, target :: measure(:)
+    integer :: stat
 
+    stat = 0
     ! Allocated here only: during the products the operator may need the memory.
-    allocate (tensile(size(scene%gap)), penetrating(size(scene%gap)), stat=stat)
-    if (stat == 0 .and. extrapolate) allocate (measure(size(scene%gap)), stat=stat)
+    if (extrapolate) allocate (tensile(size(scene%gap)), penetrating(size(scene%gap)), measure(size(scene%gap)), &
+                               stat=stat)
     call require_memory(stat, 'the contact set of', size(scene%gap), 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    if (allocated(scene%play)) then
-      do k = 1, size(scene%gap)
-        tensile(k) = iterate%contact(k)
-        if (tensile(k)) tensile(k) = pulls_away(scene, iterate, k)
-        penetrating(k) = .not. iterate%contact(k)
-        if (penetrating(k)) call join(scene, noise, iterate, k, penetrating(k))
-      end do
-    else
-      tensile = iterate%contact .and. iterate%force < -iterate%tension_noise
-      penetrating = .not. iterate%contact .and. deformed_gap(scene%gap, iterate%displacement, iterate%motion) < -noise
-    end if
+    pass%scene => scene
+    pass%iterate => iterate
+    pass%noise = noise
     if (extrapolate) then
-      call measure_states(scene, iterate, measure)
-      call exchange_in_line(scene%rows, tensile, penetrating, measure, iterate%contact, info)
-      if (info%failed()) return
-      call keep_tied(scene, iterate%contact)
-    else
-      call exchange(tensile, penetrating, iterate%contact)
+      pass%tensile => tensile
+      pass%penetrating => penetrating
+      pass%measure => measure
     end if
+    call pass%run(size(scene%gap), 0)
+    if (.not. extrapolate) return
+    call exchange_in_line(scene%rows, tensile, penetrating, measure, iterate%contact, info)
+    if (info%failed()) return
+    call keep_tied(scene, iterate%contact)
   end subroutine exchange_wrong_points
 
-  !> The `measure` (n) of exchange_extrapolated: forces of points in contact, distances of open ones from the stop that
-  !> they are nearer to.
-  pure subroutine measure_states(scene, iterate, measure)
+  !> Mark the tensile and the penetrating points of a chunk and measure their states, or exchange these points.
+  subroutine mark_and_exchange(self, k, first, last)
+    class(exchange_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+    integer :: i
+    logical :: wrong
+
+    if (k < 1) return
+    associate (scene => self%scene, iterate => self%iterate)
+      do i = first, last
+        if (.not. allocated(scene%play)) then
+          wrong = pulls_or_penetrates(iterate%contact(i), iterate%force(i), iterate%tension_noise, scene%gap(i), &
+                                      iterate%displacement(i), iterate%motion, self%noise)
+        else if (iterate%contact(i)) then
+          wrong = pulls_away(scene, iterate, i)
+        else
+          call join(scene, self%noise, iterate, i, wrong)
+        end if
+        if (associated(self%measure)) then
+          self%tensile(i) = wrong .and. iterate%contact(i)
+          self%penetrating(i) = wrong .and. .not. iterate%contact(i)
+          self%measure(i) = measure_of(scene, iterate, i)
+        else if (wrong) then
+          iterate%contact(i) = .not. iterate%contact(i)
+        end if
+      end do
+    end associate
+  end subroutine mark_and_exchange
+
+  !> The measure of exchange_extrapolated for point `k`: the force in contact, open the distance from the stop that the
+  !> point is nearer to.
+  pure function measure_of(scene, iterate, k) result(measure)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
-    real(dp), intent(out) :: measure(:)
-    integer :: k
+    integer, intent(in) :: k
+    real(dp) :: measure
 
-    measure = merge(iterate%force, deformed_gap(scene%gap, iterate%displacement, iterate%motion), iterate%contact)
+    if (iterate%contact(k)) then
+      measure = -tension_of(iterate, k, iterate%force(k))
+      return
+    end if
+    measure = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
     if (.not. allocated(scene%play)) return
-    do k = 1, size(measure)
-      if (iterate%contact(k)) then
-        measure(k) = -tension_of(iterate, k, iterate%force(k))
-      else if (scene%play(k) < huge(1.0_dp)) then
-        measure(k) = min(measure(k), scene%play(k) - measure(k))
-      end if
-    end do
-  end subroutine measure_states
+    if (scene%play(k) < huge(1.0_dp)) measure = min(measure, scene%play(k) - measure)
+  end function measure_of
 
   !> Does the open point `k` penetrate a stop? Then it will be in contact with that one.
   pure subroutine join(scene, noise, iterate, k, penetrating)
@@ -236,71 +316,112 @@ contains
 
   !> The greatest tension in the contact set, of points that are not tied; 0 if there is none.
   function greatest_tension(scene, iterate) result(tension)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(contact_iterate), intent(in), target :: iterate
     real(dp) :: tension
-    integer :: k
+    type(iterate_pass) :: pass
+    real(dp) :: greatest(1)
 
     if (scene%has_limits()) then
       tension = greatest_excess(scene, iterate)
       return
     end if
-    if (.not. allocated(scene%play)) then
-      tension = scene%rows%largest(max(0.0_dp, -minval(iterate%force)))
-      return
-    end if
-    tension = 0.0_dp
-    do k = 1, size(scene%gap)
-      if (.not. iterate%contact(k)) cycle
-      if (pulls_away(scene, iterate, k)) tension = max(tension, abs(iterate%force(k)))
-    end do
-    tension = scene%rows%largest(tension)
+    pass%scene => scene
+    pass%iterate => iterate
+    call pass%go(find_tension, 0, greatest)
+    tension = scene%rows%largest(greatest(1))
   end function greatest_tension
+
+  !> Found: the greatest tension.
+  subroutine find_tension(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    integer :: i
+
+    if (k < 1) return
+    associate (scene => pass%scene, iterate => pass%iterate)
+      if (.not. allocated(scene%play)) then
+        found(1) = max(0.0_dp, -minval(iterate%force(first:last)))
+        return
+      end if
+      do i = first, last
+        if (.not. iterate%contact(i)) cycle
+        if (pulls_away(scene, iterate, i)) found(1) = max(found(1), abs(iterate%force(i)))
+      end do
+    end associate
+  end subroutine find_tension
 
   !> Are the forces accurate enough to tell which of them will be tensile: is their error below the fraction `decisive`
   !> of the greatest tension? The preconditioned residual, iterate%work, estimates their error.
   function tension_is_decided(scene, iterate, decisive) result(decided)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(contact_iterate), intent(in), target :: iterate
     real(dp), intent(in) :: decisive
     logical :: decided
-    real(dp) :: force_error(LANES), tension(LANES), values(LANES), extremes(2)
-    integer :: i, k
+    type(iterate_pass) :: pass
+    real(dp) :: extremes(2)
 
     if (scene%has_limits()) then
       decided = excess_is_decided(scene, iterate, decisive)
       return
     end if
-    force_error = 0.0_dp
-    tension = 0.0_dp
+    pass%scene => scene
+    pass%iterate => iterate
     if (allocated(scene%play)) then
-      do k = 1, size(scene%gap)
-        if (.not. iterate%contact(k)) cycle
-        force_error(1) = max(force_error(1), abs(iterate%work(k)))
-        if (.not. scene%is_tied(k)) tension(1) = max(tension(1), tension_of(iterate, k, &
-                                                                             iterate%force(k) - iterate%work(k)))
-      end do
-      extremes = [force_error(1), tension(1)]
-      call scene%rows%raise(extremes)
-      decided = extremes(1) <= decisive*extremes(2)
-      return
+      call pass%go(find_errors_between_stops, 0, extremes)
+    else
+      call pass%go(find_errors, 0, extremes)
     end if
-    do i = 1, size(iterate%segments%first)
-      do k = iterate%segments%first(i), iterate%segments%last(i) - LANES + 1, LANES
-        values = abs(iterate%work(k:k + LANES - 1))
-        force_error = merge(values, force_error, values > force_error)
-        values = iterate%work(k:k + LANES - 1) - iterate%force(k:k + LANES - 1)
-        tension = merge(values, tension, values > tension)
-      end do
-      do k = iterate%segments%last(i) - modulo(iterate%segments%last(i) - iterate%segments%first(i) + 1, LANES) + 1, &
-          iterate%segments%last(i)
-        force_error(1) = max(force_error(1), abs(iterate%work(k)))
-        tension(1) = max(tension(1), iterate%work(k) - iterate%force(k))
-      end do
-    end do
-    extremes = [maxval(force_error), maxval(tension)]
     call scene%rows%raise(extremes)
     decided = extremes(1) <= decisive*extremes(2)
   end function tension_is_decided
+
+  !> Found: the largest error of the forces of points that may have two stops, and their greatest tension without it.
+  subroutine find_errors_between_stops(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    integer :: i
+
+    if (k < 1) return
+    associate (scene => pass%scene, iterate => pass%iterate)
+      do i = first, last
+        if (.not. iterate%contact(i)) cycle
+        found(1) = max(found(1), abs(iterate%work(i)))
+        if (.not. scene%is_tied(i)) found(2) = max(found(2), tension_of(iterate, i, iterate%force(i) - iterate%work(i)))
+      end do
+    end associate
+  end subroutine find_errors_between_stops
+
+  !> As find_errors_between_stops, of points with one stop.
+  subroutine find_errors(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    real(dp) :: force_error(LANES), tension(LANES), values(LANES)
+    integer :: i, j
+
+    if (last < first) return
+    force_error = 0.0_dp
+    tension = 0.0_dp
+    associate (segments => pass%iterate%segments, work => pass%iterate%work, force => pass%iterate%force)
+      do i = segments%before(k) + 1, segments%before(k + 1)
+        associate (a => segments%first(i), b => segments%last(i))
+          do j = a, b - LANES + 1, LANES
+            values = abs(work(j:j + LANES - 1))
+            force_error = merge(values, force_error, values > force_error)
+            values = work(j:j + LANES - 1) - force(j:j + LANES - 1)
+            tension = merge(values, tension, values > tension)
+          end do
+          do j = b - modulo(b - a + 1, LANES) + 1, b
+            force_error(1) = max(force_error(1), abs(work(j)))
+            tension(1) = max(tension(1), work(j) - force(j))
+          end do
+        end associate
+      end do
+    end associate
+    found = [maxval(force_error), maxval(tension)]
+  end subroutine find_errors
 
 end module fuge_wrong_points

@@ -13,6 +13,7 @@ module fuge_contact_preconditioner
   use fuge_number_text, only: text
   use fuge_operator_products, only: precondition
   use fuge_operator_type, only: fuge_operator
+  use fuge_point_chunks, only: chunk_count, chunked_pass
   use fuge_preconditioner_levels, only: apply_levels, count_contacts, create_level, exists, level_force, &
     preconditioner_level
   use fuge_point_space, only: point_space
@@ -66,6 +67,16 @@ module fuge_contact_preconditioner
     procedure :: apply_with_modes
   end type contact_preconditioner
 
+  !> Gives `values`: 1 on the set `contact` and 0 off it; or `source`; or on `segments` `source` less `mean`.
+  type, extends(chunked_pass) :: value_pass
+    real(dp), pointer, contiguous :: values(:) => null(), source(:) => null()
+    logical, pointer, contiguous :: contact(:) => null()
+    type(contact_segments), pointer :: segments => null()
+    real(dp) :: mean = 0.0_dp
+  contains
+    procedure :: do_chunk => give_values
+  end type value_pass
+
 contains
 
   !> Prepare for a contact set; does nothing if it is the same set as before, and little if it is close to it.
@@ -76,7 +87,7 @@ contains
   subroutine set(self, operator, contact, zero_sum, compliance, info)
     class(contact_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
-    logical, intent(in) :: contact(:)
+    logical, intent(in), contiguous :: contact(:)
     logical, intent(in) :: zero_sum
     real(dp), intent(in) :: compliance
     type(fuge_info), intent(inout) :: info
@@ -259,7 +270,7 @@ contains
     if (self%depth == 1) then
       call precondition(operator, residual, force, info)
     else if (self%depth > 1) then
-      self%levels(1)%residual = residual
+      call copy_values(residual, self%levels(1)%residual)
       call apply_levels(self%levels(:self%depth), self%forces, operator, force, self%coarse_share, info)
     else
       do i = 1, size(segments%first)
@@ -273,19 +284,59 @@ contains
   !> The residual less that mean for which `uniform` does no work: with the same projection before and after it the
   !> preconditioner is symmetric, whatever set `uniform` was computed for (doc/theory.md).
   subroutine center(self, segments, residual)
-    class(contact_preconditioner), intent(inout) :: self
-    type(contact_segments), intent(in) :: segments
-    real(dp), intent(in), contiguous :: residual(:)
-    real(dp) :: mean
-    integer :: i
+    class(contact_preconditioner), intent(inout), target :: self
+    type(contact_segments), intent(in), target :: segments
+    real(dp), intent(in), contiguous, target :: residual(:)
+    type(value_pass) :: pass
 
-    mean = dot_over(segments, residual, self%uniform)/self%sum_of_uniform
-    do i = 1, size(segments%first)
-      associate (a => segments%first(i), b => segments%last(i))
-        self%centred(a:b) = residual(a:b) - mean
-      end associate
-    end do
+    pass%mean = dot_over(segments, residual, self%uniform)/self%sum_of_uniform
+    pass%segments => segments
+    pass%source => residual
+    pass%values => self%centred
+    if (segments%are_in_one_chunk()) then
+      call pass%do_chunk(1, 1, size(residual))
+    else
+      call pass%run(size(residual), 0)
+    end if
   end subroutine center
+
+  !> In loops, because array assignments between pointers go through a copy.
+  subroutine give_values(self, k, first, last)
+    class(value_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+    integer :: i, j
+
+    if (associated(self%contact)) then
+      do j = first, last
+        self%values(j) = merge(1.0_dp, 0.0_dp, self%contact(j))
+      end do
+    else if (associated(self%segments)) then
+      do i = self%segments%before(k) + 1, self%segments%before(k + 1)
+        do j = self%segments%first(i), self%segments%last(i)
+          self%values(j) = self%source(j) - self%mean
+        end do
+      end do
+    else
+      do j = first, last
+        self%values(j) = self%source(j)
+      end do
+    end if
+  end subroutine give_values
+
+  !> values = source, both (n).
+  subroutine copy_values(source, values)
+    real(dp), intent(in), contiguous, target :: source(:)
+    real(dp), intent(inout), contiguous, target :: values(:)
+    type(value_pass) :: pass
+
+    if (chunk_count(size(values)) == 1) then
+      values = source
+      return
+    end if
+    pass%source => source
+    pass%values => values
+    call pass%run(size(values), 0)
+  end subroutine copy_values
 
   !> Store the contact set; where it is many segments of a line of cells also create the levels that do not exist yet
   !> and count the contact points in their cells.
@@ -344,11 +395,12 @@ contains
   !> The operator's preconditioner applied to 1 on the contact set and 0 elsewhere.
   subroutine precondition_unit(operator, contact, force, info)
     class(fuge_operator), intent(in) :: operator
-    logical, intent(in) :: contact(:)
+    logical, intent(in), contiguous, target :: contact(:)
     real(dp), intent(inout), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
+    type(value_pass) :: pass
     type(point_space) :: space
-    real(dp), allocatable :: unit(:)
+    real(dp), allocatable, target :: unit(:)
     integer :: stat
 
     allocate (unit(size(contact)), stat=stat)
@@ -356,7 +408,9 @@ contains
     space = operator%ranks()
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    unit = merge(1.0_dp, 0.0_dp, contact)
+    pass%contact => contact
+    pass%values => unit
+    call pass%run(size(unit), 0)
     call precondition(operator, unit, force, info)
   end subroutine precondition_unit
 

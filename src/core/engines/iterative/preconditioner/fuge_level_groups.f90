@@ -1,6 +1,7 @@
 !> Groups of cells of one level that are one cell of the next, on a line that ranks may share: sums and means over them.
 module fuge_level_groups
   use fuge_kinds, only: dp
+  use fuge_point_chunks, only: chunk_count, chunked_pass
   use fuge_shared_rows, only: shared_rows
   use fuge_status, only: fuge_info, require_memory
   implicit none
@@ -11,7 +12,117 @@ module fuge_level_groups
   !> Cells of one level in a cell of the next.
   integer, parameter :: GROUP = 16
 
+  !> What a pass over the groups does.
+  integer, parameter :: ADD = 1, MEANS_OF = 2, SUBTRACT = 3
+
+  !> Passes over cells in several chunks, each of whole groups; `coarse` has the values of the groups, `fine` those of
+  !> the cells, `weight` their weights, or 1 for those to subtract from.
+  type, extends(chunked_pass) :: group_pass
+    integer :: operation = 0
+    real(dp), pointer, contiguous :: coarse(:) => null(), fine(:) => null(), weight(:) => null(), &
+      coarse_weight(:) => null()
+    real(dp) :: factor = 0.0_dp
+  contains
+    procedure :: do_chunk => do_groups
+  end type group_pass
+
 contains
+
+  subroutine do_groups(self, k, first, last)
+    class(group_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+    integer :: from, to
+
+    if (k < 1) return
+    from = (first - 1)/GROUP + 1
+    to = (last - 1)/GROUP + 1
+    select case (self%operation)
+    case (ADD)
+      call add_groups(self%factor, self%coarse(from:to), self%fine(first:last))
+    case (MEANS_OF)
+      call mean_groups(self%weight(first:last), self%fine(first:last), self%coarse_weight(from:to), &
+                       self%coarse(from:to))
+    case (SUBTRACT)
+      call subtract_groups(self%coarse(from:to), self%weight(first:last), self%fine(first:last))
+    end select
+  end subroutine do_groups
+
+  !> Add `factor` times the values of groups to their cells.
+  pure subroutine add_groups(factor, coarse, fine)
+    real(dp), intent(in) :: factor
+    real(dp), intent(in), contiguous :: coarse(:)
+    real(dp), intent(inout), contiguous :: fine(:)
+    integer :: i, k
+
+    do k = 1, size(coarse)
+      if (.not. abs(coarse(k)) > 0.0_dp) cycle
+      do i = (k - 1)*GROUP + 1, min(k*GROUP, size(fine))
+        fine(i) = fine(i) + factor*coarse(k)
+      end do
+    end do
+  end subroutine add_groups
+
+  !> Subtract the values of groups from those of their cells whose `indicator` is 1.
+  pure subroutine subtract_groups(coarse, indicator, fine)
+    real(dp), intent(in), contiguous :: coarse(:), indicator(:)
+    real(dp), intent(inout), contiguous :: fine(:)
+    integer :: i, k
+
+    do k = 1, size(coarse)
+      if (.not. abs(coarse(k)) > 0.0_dp) cycle
+      do i = (k - 1)*GROUP + 1, min(k*GROUP, size(fine))
+        fine(i) = fine(i) - coarse(k)*indicator(i)
+      end do
+    end do
+  end subroutine subtract_groups
+
+  !> The weighted `means` of the groups; 0 for a group of weight 0.
+  pure subroutine mean_groups(weight, fine, coarse_weight, means)
+    real(dp), intent(in), contiguous :: weight(:), fine(:), coarse_weight(:)
+    real(dp), intent(inout), contiguous :: means(:)
+    integer :: begin, finish, k
+
+    do k = 1, size(means)
+      means(k) = 0.0_dp
+      if (.not. coarse_weight(k) > 0.0_dp) cycle
+      begin = (k - 1)*GROUP + 1
+      finish = min(k*GROUP, size(fine))
+      means(k) = sum(weight(begin:finish)*fine(begin:finish))/coarse_weight(k)
+    end do
+  end subroutine mean_groups
+
+  !> Add to, or with `weight` subtract from, the cells of several chunks.
+  subroutine share_groups(factor, coarse, fine, weight)
+    real(dp), intent(in) :: factor
+    real(dp), intent(in), contiguous, target :: coarse(:)
+    real(dp), intent(inout), contiguous, target :: fine(:)
+    real(dp), intent(in), contiguous, target, optional :: weight(:)
+    type(group_pass) :: pass
+
+    pass%operation = ADD
+    pass%factor = factor
+    pass%coarse => coarse
+    pass%fine => fine
+    if (present(weight)) then
+      pass%operation = SUBTRACT
+      pass%weight => weight
+    end if
+    call pass%run(size(fine), 0)
+  end subroutine share_groups
+
+  !> As `mean_groups`, on several chunks.
+  subroutine share_means(weight, fine, coarse_weight, means)
+    real(dp), intent(in), contiguous, target :: weight(:), fine(:), coarse_weight(:)
+    real(dp), intent(inout), contiguous, target :: means(:)
+    type(group_pass) :: pass
+
+    pass%operation = MEANS_OF
+    pass%weight => weight
+    pass%fine => fine
+    pass%coarse_weight => coarse_weight
+    pass%coarse => means
+    call pass%run(size(fine), 0)
+  end subroutine share_means
 
   !> Does this process have all cells that it needs for its groups? On a grid of a single row one rank has them all.
   pure function is_local(rows)
@@ -78,7 +189,7 @@ contains
     real(dp), intent(inout), contiguous :: means(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: weighted(:)
-    integer :: begin, finish, k, stat
+    integer :: stat
 
     if (.not. is_local(fine)) then
       allocate (weighted(size(fine_values)), stat=stat)
@@ -97,13 +208,11 @@ contains
       end where
       return
     end if
-    do k = 1, size(means)
-      means(k) = 0.0_dp
-      if (.not. coarse_weight(k) > 0.0_dp) cycle
-      begin = (k - 1)*GROUP + 1
-      finish = min(k*GROUP, size(fine_values))
-      means(k) = sum(weight(begin:finish)*fine_values(begin:finish))/coarse_weight(k)
-    end do
+    if (chunk_count(size(fine_values)) == 1) then
+      call mean_groups(weight, fine_values, coarse_weight, means)
+    else
+      call share_means(weight, fine_values, coarse_weight, means)
+    end if
   end subroutine compute_group_means
 
   !> Subtract each group's value from those of its cells whose `indicator` is 1. Error: FUGE_ERR_MEMORY.
@@ -113,15 +222,14 @@ contains
     real(dp), intent(inout), contiguous :: fine_values(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: part(:)
-    integer :: before, i, k
+    integer :: before, i
 
     if (is_local(fine)) then
-      do k = 1, size(coarse_values)
-        if (.not. abs(coarse_values(k)) > 0.0_dp) cycle
-        do i = (k - 1)*GROUP + 1, min(k*GROUP, size(fine_values))
-          fine_values(i) = fine_values(i) - coarse_values(k)*indicator(i)
-        end do
-      end do
+      if (chunk_count(size(fine_values)) == 1) then
+        call subtract_groups(coarse_values, indicator, fine_values)
+      else
+        call share_groups(1.0_dp, coarse_values, fine_values, indicator)
+      end if
       return
     end if
     call fetch_groups(fine, coarse, coarse_values, part, before, info)
@@ -140,15 +248,14 @@ contains
     real(dp), intent(inout), contiguous :: fine_values(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: part(:)
-    integer :: before, i, k
+    integer :: before, i
 
     if (is_local(fine)) then
-      do k = 1, size(coarse_values)
-        if (.not. abs(coarse_values(k)) > 0.0_dp) cycle
-        do i = (k - 1)*GROUP + 1, min(k*GROUP, size(fine_values))
-          fine_values(i) = fine_values(i) + factor*coarse_values(k)
-        end do
-      end do
+      if (chunk_count(size(fine_values)) == 1) then
+        call add_groups(factor, coarse_values, fine_values)
+      else
+        call share_groups(factor, coarse_values, fine_values)
+      end if
       return
     end if
     call fetch_groups(fine, coarse, coarse_values, part, before, info)

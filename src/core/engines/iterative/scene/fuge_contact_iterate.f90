@@ -8,14 +8,15 @@ module fuge_contact_iterate
   use fuge_mode_projection, only: mode_projection
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
+  use fuge_point_chunks, only: chunk_count, chunked_pass
   use fuge_point_space, only: point_space
   use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
-  public :: compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, find_penetration, &
-    is_accurate, largest_rigid_magnitude, overlap_at, project_residual, relative_error, remove_rigid_part, &
-    rounding_force, start_iterate
+  public :: compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
+    find_penetration, is_accurate, largest_rigid_magnitude, overlap_at, project_residual, relative_error, &
+    remove_rigid_part, rounding_force, start_iterate
 
   !> Gaps less rigid displacements may be rounded by this many units in the last place of their terms.
   real(dp), parameter :: ROUNDINGS = 2.0_dp
@@ -89,7 +90,74 @@ module fuge_contact_iterate
     real(dp), allocatable :: work(:)
   end type contact_iterate
 
+  !> A pass over the points of an iterate, of which one chunk takes no more than its loop.
+  type, extends(chunked_pass), public :: iterate_pass
+    type(contact_scene), pointer :: scene => null()
+    type(contact_iterate), pointer :: iterate => null()
+    !> A number that the operation needs.
+    real(dp) :: value = 0.0_dp
+    procedure(chunk_operation), pointer, nopass :: operation => null()
+  contains
+    procedure :: go
+    procedure :: do_chunk
+  end type iterate_pass
+
+  !> Finds the sum of the forces, then adds `shift` to the displacements.
+  type, extends(chunked_pass) :: datum_pass
+    real(dp), pointer, contiguous :: force(:) => null(), displacement(:) => null()
+    real(dp) :: shift = 0.0_dp
+  contains
+    procedure :: do_chunk => do_datum
+  end type datum_pass
+
+  abstract interface
+    !> Chunk `k`, the points `first` .. `last`; what it finds is added to `found`, which is zero before, or raises it.
+    subroutine chunk_operation(pass, k, first, last, found)
+      import :: dp, iterate_pass
+      class(iterate_pass), intent(inout) :: pass
+      integer, intent(in) :: k, first, last
+      real(dp), intent(inout) :: found(:)
+    end subroutine chunk_operation
+  end interface
+
 contains
+
+  !> Do `operation` on all chunks. `found`: `sums` sums over the chunks, then maxima.
+  subroutine go(self, operation, sums, found)
+    class(iterate_pass), intent(inout) :: self
+    procedure(chunk_operation) :: operation
+    integer, intent(in) :: sums
+    real(dp), intent(out) :: found(:)
+    integer :: i, n
+
+    ! Where only search directions count, there are no forces.
+    if (allocated(self%iterate%force)) then
+      n = size(self%iterate%force)
+    else
+      n = size(self%iterate%work)
+    end if
+    if (chunk_count(n) == 1) then
+      found = 0.0_dp
+      call operation(self, 1, 1, n, found)
+      return
+    end if
+    self%operation => operation
+    call self%run(n, size(found))
+    do i = 1, size(found)
+      if (i <= sums) then
+        found(i) = self%total(i)
+      else
+        found(i) = self%largest(i)
+      end if
+    end do
+  end subroutine go
+
+  subroutine do_chunk(self, k, first, last)
+    class(iterate_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+
+    call self%operation(self, k, first, last, self%found(:, k))
+  end subroutine do_chunk
 
   !> Allocate all arrays for the points of a scene and set the forces to start from: `start` (n), scaled as in
   !> contact_iterate, if there are any; else equal forces, or none if the motion is prescribed, or the least forces
@@ -179,23 +247,42 @@ contains
   end function relative_error
 
   !> Gap plus displacement less the stop, before rigid motions are subtracted.
-  pure subroutine set_residual(scene, iterate)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(inout) :: iterate
-    integer :: i, last
+  subroutine set_residual(scene, iterate)
+    type(contact_scene), intent(in), target :: scene
+    type(contact_iterate), intent(inout), target :: iterate
+    type(iterate_pass) :: pass
+    real(dp) :: none(0)
 
-    last = 0
-    do i = 1, size(iterate%segments%first)
-      iterate%residual(last + 1:iterate%segments%first(i) - 1) = 0.0_dp
-      last = iterate%segments%last(i)
-      associate (a => iterate%segments%first(i))
-        iterate%residual(a:last) = scene%gap(a:last) + iterate%displacement(a:last)
-      end associate
-    end do
-    iterate%residual(last + 1:) = 0.0_dp
-    if (.not. allocated(scene%play)) return
-    where (iterate%contact .and. iterate%at_upper) iterate%residual = iterate%residual - scene%play
+    pass%scene => scene
+    pass%iterate => iterate
+    call pass%go(set_residuals, 0, none)
   end subroutine set_residual
+
+  !> The residuals of a chunk. Finds nothing.
+  subroutine set_residuals(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    integer :: end_before, i, j
+
+    found = 0.0_dp
+    associate (scene => pass%scene, iterate => pass%iterate, segments => pass%iterate%segments)
+      end_before = first - 1
+      do i = segments%before(k) + 1, segments%before(k + 1)
+        iterate%residual(end_before + 1:segments%first(i) - 1) = 0.0_dp
+        end_before = segments%last(i)
+        ! A loop, because array assignments between components of pointers go through a copy.
+        do j = segments%first(i), end_before
+          iterate%residual(j) = scene%gap(j) + iterate%displacement(j)
+        end do
+      end do
+      iterate%residual(end_before + 1:last) = 0.0_dp
+      if (.not. allocated(scene%play)) return
+      do i = first, last
+        if (iterate%contact(i) .and. iterate%at_upper(i)) iterate%residual(i) = iterate%residual(i) - scene%play(i)
+      end do
+    end associate
+  end subroutine set_residuals
 
   !> Move the rigid part of the residual into the motion, unless that is prescribed: left in the
   !> residual, its rounding error would grow and swamp the rest.
@@ -244,27 +331,56 @@ contains
 
   !> The deepest penetration of an open point, through either stop; 0 if none penetrates.
   function find_penetration(scene, iterate) result(depth)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(contact_iterate), intent(in), target :: iterate
     real(dp) :: depth
-    integer :: k
+    type(iterate_pass) :: pass
+    real(dp) :: deepest(1)
 
-    if (scene%has_limits()) then
-      depth = 0.0_dp
-      do k = 1, size(scene%gap)
-        if (.not. iterate%contact(k)) depth = max(depth, overlap_at(scene, iterate, k))
-      end do
-      depth = scene%rows%largest(depth)
+    if (.not. allocated(scene%play)) then
+      depth = deepest_penetration(iterate%segments, scene%gap, iterate%motion, iterate%displacement)
       return
     end if
-    depth = deepest_penetration(iterate%segments, scene%gap, iterate%motion, iterate%displacement)
-    if (.not. allocated(scene%play)) return
-    do k = 1, size(scene%gap)
-      if (iterate%contact(k) .or. scene%play(k) >= huge(depth) .or. scene%gap(k) >= OUT_OF_REACH) cycle
-      depth = max(depth, deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion) - scene%play(k))
-    end do
-    depth = scene%rows%largest(depth)
+    pass%scene => scene
+    pass%iterate => iterate
+    if (scene%has_limits()) then
+      call pass%go(find_overlaps, 0, deepest)
+      depth = scene%rows%largest(deepest(1))
+    else
+      depth = deepest_penetration(iterate%segments, scene%gap, iterate%motion, iterate%displacement)
+      call pass%go(penetrate_upper_stops, 0, deepest)
+      depth = scene%rows%largest(max(depth, deepest(1)))
+    end if
   end function find_penetration
+
+  !> Found: the largest overlap of a point that is not in contact.
+  subroutine find_overlaps(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    integer :: i
+
+    if (k < 1) return
+    do i = first, last
+      if (.not. pass%iterate%contact(i)) found(1) = max(found(1), overlap_at(pass%scene, pass%iterate, i))
+    end do
+  end subroutine find_overlaps
+
+  !> Found: the deepest penetration of an open point through its upper stop.
+  subroutine penetrate_upper_stops(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    integer :: i
+
+    if (k < 1) return
+    associate (scene => pass%scene, iterate => pass%iterate)
+      do i = first, last
+        if (iterate%contact(i) .or. scene%play(i) >= huge(1.0_dp) .or. scene%gap(i) >= OUT_OF_REACH) cycle
+        found(1) = max(found(1), deformed_gap(scene%gap(i), iterate%displacement(i), iterate%motion) - scene%play(i))
+      end do
+    end associate
+  end subroutine penetrate_upper_stops
 
   !> How far point `k`, which is not in contact, is on the wrong side of a stop, where forces have limits: an open point
   !> beyond it, one at its limit before it; not positive if it is not.
@@ -313,10 +429,10 @@ contains
     else if (iterate%prescribed) then
       elastic = iterate%displacement - offset
       call operator%magnitude(iterate%force, elastic, iterate%work)
-      iterate%least_magnitude = least_sum(iterate%segments, offset, scene%gap, iterate%work)
+      iterate%least_magnitude = least_sum(scene, iterate, offset)
     else
       call operator%magnitude(iterate%force, iterate%displacement, iterate%work)
-      iterate%least_magnitude = least_sum(iterate%segments, -iterate%motion, scene%gap, iterate%work)
+      iterate%least_magnitude = least_sum(scene, iterate, -iterate%motion)
     end if
     iterate%largest_magnitude = max_abs_over(iterate%segments, iterate%work)
   end subroutine find_least_magnitude
@@ -383,22 +499,42 @@ contains
     is_accurate = iterate%residual_norm <= tolerance*iterate%least_magnitude + iterate%rounding
   end function is_accurate
 
-  !> The least of |gap + offset| + magnitude over the segments, 0 if there are none; `gap`, `magnitude` (n).
-  function least_sum(segments, offset, gap, magnitude) result(least)
-    type(contact_segments), intent(in) :: segments
+  !> The least of |gap + offset| + magnitude, iterate%work, over the segments, 0 if there are none.
+  function least_sum(scene, iterate, offset) result(least)
+    type(contact_scene), intent(in), target :: scene
+    type(contact_iterate), intent(in), target :: iterate
     real(dp), intent(in) :: offset
-    real(dp), intent(in), contiguous :: gap(:), magnitude(:)
     real(dp) :: least
-    integer :: i, k
+    type(iterate_pass) :: pass
+    real(dp) :: found(1)
 
-    least = merge(huge(least), 0.0_dp, segments%points > 0)
-    do i = 1, size(segments%first)
-      do k = segments%first(i), segments%last(i)
-        least = min(least, abs(gap(k) + offset) + magnitude(k))
-      end do
-    end do
-    least = segments%space%least(least)
+    pass%scene => scene
+    pass%iterate => iterate
+    pass%value = offset
+    call pass%go(find_least_sum, 0, found)
+    least = merge(-found(1), 0.0_dp, iterate%segments%points > 0)
+    least = iterate%segments%space%least(least)
   end function least_sum
+
+  !> Found: minus the least sum of a chunk.
+  subroutine find_least_sum(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    real(dp) :: least
+    integer :: i, j
+
+    least = huge(least)
+    if (last < first) return
+    associate (segments => pass%iterate%segments, gap => pass%scene%gap, magnitude => pass%iterate%work)
+      do i = segments%before(k) + 1, segments%before(k + 1)
+        do j = segments%first(i), segments%last(i)
+          least = min(least, abs(gap(j) + pass%value) + magnitude(j))
+        end do
+      end do
+    end associate
+    found(1) = -least
+  end subroutine find_least_sum
 
   !> The least of `values` (n) over the segments, 0 if there are none.
   function least_over(segments, values) result(least)
@@ -458,8 +594,38 @@ contains
     call multiply(operator, force, displacement, info)
     if (.not. with_datum .or. info%failed()) return
     space = operator%ranks()
-    displacement = displacement + operator%datum()*space%total(sum(force))
+    if (chunk_count(size(force)) == 1) then
+      displacement = displacement + operator%datum()*space%total(sum(force))
+    else
+      call add_datum(operator%datum(), space, force, displacement)
+    end if
   end subroutine compute_displacement
+
+  !> Add to the displacements of several chunks those by the `datum`.
+  subroutine add_datum(datum, space, force, displacement)
+    real(dp), intent(in) :: datum
+    type(point_space), intent(in) :: space
+    real(dp), intent(in), contiguous, target :: force(:)
+    real(dp), intent(inout), contiguous, target :: displacement(:)
+    type(datum_pass) :: pass
+
+    pass%force => force
+    call pass%run(size(force), 1)
+    pass%shift = datum*space%total(pass%total(1))
+    pass%displacement => displacement
+    call pass%run(size(force), 1)
+  end subroutine add_datum
+
+  subroutine do_datum(self, k, first, last)
+    class(datum_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+
+    if (associated(self%displacement)) then
+      self%displacement(first:last) = self%displacement(first:last) + self%shift
+    else
+      self%found(1, k) = sum(self%force(first:last))
+    end if
+  end subroutine do_datum
 
   !> Gap of a point in the deformed state; negative where the point penetrates. Scaled as in
   !> contact_iterate.

@@ -1,19 +1,23 @@
 !> Contact segments: runs of consecutive points in contact, as long as they can be within a chunk, and sums over them.
 !>
-!> Loops over the segments visit no open point and have no branch inside. Where ranks share the points, each has the
-!> segments of its own, and sums and maxima are those over the segments of all ranks.
+!> Loops over the segments visit no open point and have no branch inside. Several chunks are shared by threads; a
+!> single one takes no more than its loop. Where ranks share the points, each has the segments of its own, and sums and
+!> maxima are those over the segments of all ranks.
 module fuge_contact_segments
   use fuge_kinds, only: dp
   use fuge_point_chunks, only: chunk_count, chunked_pass
   use fuge_point_space, only: point_space
+  use fuge_run_sums, only: add_scaled_on_runs, center_on_runs, dot_and_sum_on_runs, dot_on_runs, max_abs_on_runs, &
+    subtract_and_dot_on_runs, sum_on_runs
   use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
-  public :: center_over, dot_and_sum_over, dot_over, max_abs_over, subtract_and_dot_over, sum_over
+  public :: add_scaled_over, center_over, dot_and_sum_over, dot_over, max_abs_over, subtract_and_dot_over, sum_over
 
-  !> Number of partial sums: several are faster, and more exact, than one.
-  integer, parameter :: LANES = 8
+  !> What a pass over the segments does.
+  integer, parameter :: ADD_SCALED = 1, CENTER = 2, DOT = 3, DOT_AND_SUM = 4, MAX_ABS = 5, SUBTRACT_AND_DOT = 6, &
+    TO_SUM = 7
 
   !> The segments of one contact set.
   type, public :: contact_segments
@@ -27,6 +31,7 @@ module fuge_contact_segments
     type(point_space) :: space = point_space()
   contains
     procedure :: find
+    procedure :: are_in_one_chunk
   end type contact_segments
 
   !> Finds the segments, chunk by chunk.
@@ -36,6 +41,17 @@ module fuge_contact_segments
   contains
     procedure :: do_chunk => find_in_chunk
   end type segment_pass
+
+  !> Passes over the segments of several chunks. Found: two numbers, those of the operation.
+  type, extends(chunked_pass) :: operation_pass
+    integer :: operation = 0
+    type(contact_segments), pointer :: segments => null()
+    real(dp) :: factor = 0.0_dp
+    !> `x` and `z` are read, `y` is changed.
+    real(dp), pointer, contiguous :: x(:) => null(), y(:) => null(), z(:) => null()
+  contains
+    procedure :: do_chunk => do_operation
+  end type operation_pass
 
 contains
 
@@ -118,25 +134,28 @@ contains
     if (inside) last(number) = begin + size(contact) - 1
   end subroutine note_segments
 
+  !> Are all points in one chunk?
+  pure function are_in_one_chunk(self)
+    class(contact_segments), intent(in) :: self
+    logical :: are_in_one_chunk
+
+    are_in_one_chunk = size(self%before) <= 2
+  end function are_in_one_chunk
+
   !> Sum of `x` (n) over the segments.
   function sum_over(segments, x) result(total)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:)
     real(dp) :: total
-    real(dp) :: partial(LANES)
-    integer :: i, k
+    real(dp) :: sums(2)
 
-    total = 0.0_dp
-    partial = 0.0_dp
-    do i = 1, size(segments%first)
-      do k = segments%first(i), segments%last(i) - LANES + 1, LANES
-        partial = partial + x(k:k + LANES - 1)
-      end do
-      do k = segments%last(i) - modulo(segments%last(i) - segments%first(i) + 1, LANES) + 1, segments%last(i)
-        total = total + x(k)
-      end do
-    end do
-    total = segments%space%total(total + sum(partial))
+    if (segments%are_in_one_chunk()) then
+      total = sum_on_runs(size(segments%first), segments%first, segments%last, size(x), x)
+    else
+      call share_operation(TO_SUM, segments, 0.0_dp, sums, x=x)
+      total = sums(1)
+    end if
+    total = segments%space%total(total)
   end function sum_over
 
   !> Inner product of `x` and `y`, both (n), over the segments.
@@ -144,20 +163,15 @@ contains
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:), y(:)
     real(dp) :: inner
-    real(dp) :: partial(LANES)
-    integer :: i, k
+    real(dp) :: sums(2)
 
-    inner = 0.0_dp
-    partial = 0.0_dp
-    do i = 1, size(segments%first)
-      do k = segments%first(i), segments%last(i) - LANES + 1, LANES
-        partial = partial + x(k:k + LANES - 1)*y(k:k + LANES - 1)
-      end do
-      do k = segments%last(i) - modulo(segments%last(i) - segments%first(i) + 1, LANES) + 1, segments%last(i)
-        inner = inner + x(k)*y(k)
-      end do
-    end do
-    inner = segments%space%total(inner + sum(partial))
+    if (segments%are_in_one_chunk()) then
+      inner = dot_on_runs(size(segments%first), segments%first, segments%last, size(x), x, y)
+    else
+      call share_operation(DOT, segments, 0.0_dp, sums, x=x, z=y)
+      inner = sums(1)
+    end if
+    inner = segments%space%total(inner)
   end function dot_over
 
   !> `inner` = the inner product of `x` and `y` over the segments, `total` = the sum of `y`; both (n).
@@ -165,28 +179,14 @@ contains
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:), y(:)
     real(dp), intent(out) :: inner, total
-    real(dp) :: products(LANES), values(LANES), sums(2)
-    integer :: i, k
+    real(dp) :: sums(2)
 
-    inner = 0.0_dp
-    total = 0.0_dp
-    products = 0.0_dp
-    values = 0.0_dp
-    do i = 1, size(segments%first)
-      do k = segments%first(i), segments%last(i) - LANES + 1, LANES
-        products = products + x(k:k + LANES - 1)*y(k:k + LANES - 1)
-        values = values + y(k:k + LANES - 1)
-      end do
-      do k = segments%last(i) - modulo(segments%last(i) - segments%first(i) + 1, LANES) + 1, segments%last(i)
-        inner = inner + x(k)*y(k)
-        total = total + y(k)
-      end do
-    end do
-    inner = inner + sum(products)
-    total = total + sum(values)
-    if (segments%space%is_alone()) return
-    sums = [inner, total]
-    call segments%space%add(sums)
+    if (segments%are_in_one_chunk()) then
+      call dot_and_sum_on_runs(size(segments%first), segments%first, segments%last, size(x), x, y, sums)
+    else
+      call share_operation(DOT_AND_SUM, segments, 0.0_dp, sums, x=x, z=y)
+    end if
+    if (.not. segments%space%is_alone()) call segments%space%add(sums)
     inner = sums(1)
     total = sums(2)
   end subroutine dot_and_sum_over
@@ -199,23 +199,16 @@ contains
     real(dp), intent(in), contiguous :: x(:), z(:)
     real(dp), intent(inout), contiguous :: y(:)
     real(dp), intent(out) :: inner
-    real(dp) :: partial(LANES), values(LANES)
-    integer :: i, k
+    real(dp) :: sums(2)
 
-    inner = 0.0_dp
-    partial = 0.0_dp
-    do i = 1, size(segments%first)
-      do k = segments%first(i), segments%last(i) - LANES + 1, LANES
-        values = y(k:k + LANES - 1) - factor*x(k:k + LANES - 1)
-        y(k:k + LANES - 1) = values
-        partial = partial + values*z(k:k + LANES - 1)
-      end do
-      do k = segments%last(i) - modulo(segments%last(i) - segments%first(i) + 1, LANES) + 1, segments%last(i)
-        y(k) = y(k) - factor*x(k)
-        inner = inner + y(k)*z(k)
-      end do
-    end do
-    inner = segments%space%total(inner + sum(partial))
+    if (segments%are_in_one_chunk()) then
+      call subtract_and_dot_on_runs(size(segments%first), segments%first, segments%last, size(y), factor, x, y, z, &
+                                    inner)
+    else
+      call share_operation(SUBTRACT_AND_DOT, segments, factor, sums, x, y, z)
+      inner = sums(1)
+    end if
+    inner = segments%space%total(inner)
   end subroutine subtract_and_dot_over
 
   !> Subtract `mean` from `x` (n) over the segments; `largest` is the largest |x| then, 0 if there is none.
@@ -224,24 +217,15 @@ contains
     real(dp), intent(in) :: mean
     real(dp), intent(inout), contiguous :: x(:)
     real(dp), intent(out) :: largest
-    real(dp) :: partial(LANES), values(LANES)
-    integer :: i, k
+    real(dp) :: maxima(2)
 
-    largest = 0.0_dp
-    partial = 0.0_dp
-    do i = 1, size(segments%first)
-      do k = segments%first(i), segments%last(i) - LANES + 1, LANES
-        values = x(k:k + LANES - 1) - mean
-        x(k:k + LANES - 1) = values
-        values = abs(values)
-        partial = merge(values, partial, values > partial)
-      end do
-      do k = segments%last(i) - modulo(segments%last(i) - segments%first(i) + 1, LANES) + 1, segments%last(i)
-        x(k) = x(k) - mean
-        largest = max(largest, abs(x(k)))
-      end do
-    end do
-    largest = segments%space%largest(max(largest, maxval(partial)))
+    if (segments%are_in_one_chunk()) then
+      call center_on_runs(size(segments%first), segments%first, segments%last, size(x), mean, x, largest)
+    else
+      call share_operation(CENTER, segments, mean, maxima, y=x)
+      largest = maxima(1)
+    end if
+    largest = segments%space%largest(largest)
   end subroutine center_over
 
   !> Largest |x| over the segments, 0 if there is none; `x` (n).
@@ -249,15 +233,92 @@ contains
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in), contiguous :: x(:)
     real(dp) :: largest
-    integer :: i, k
+    real(dp) :: maxima(2)
 
-    largest = 0.0_dp
-    do i = 1, size(segments%first)
-      do k = segments%first(i), segments%last(i)
-        largest = max(largest, abs(x(k)))
-      end do
-    end do
+    if (segments%are_in_one_chunk()) then
+      largest = max_abs_on_runs(size(segments%first), segments%first, segments%last, size(x), x)
+    else
+      call share_operation(MAX_ABS, segments, 0.0_dp, maxima, x=x)
+      largest = maxima(1)
+    end if
     largest = segments%space%largest(largest)
   end function max_abs_over
+
+  !> y = x + factor*y over the segments, both (n).
+  subroutine add_scaled_over(segments, factor, x, y)
+    type(contact_segments), intent(in) :: segments
+    real(dp), intent(in) :: factor
+    real(dp), intent(in), contiguous :: x(:)
+    real(dp), intent(inout), contiguous :: y(:)
+    real(dp) :: none(2)
+
+    if (segments%are_in_one_chunk()) then
+      call add_scaled_on_runs(size(segments%first), segments%first, segments%last, size(x), factor, x, y)
+    else
+      call share_operation(ADD_SCALED, segments, factor, none, x=x, y=y)
+    end if
+  end subroutine add_scaled_over
+
+  !> Do an operation on several chunks. Found: the sums over the chunks, or the maxima.
+  subroutine share_operation(operation, segments, factor, found, x, y, z)
+    integer, intent(in) :: operation
+    type(contact_segments), intent(in), target :: segments
+    real(dp), intent(in) :: factor
+    real(dp), intent(out) :: found(2)
+    real(dp), intent(in), contiguous, target, optional :: x(:), z(:)
+    real(dp), intent(inout), contiguous, target, optional :: y(:)
+    type(operation_pass) :: pass
+    integer :: i, n
+
+    n = 0
+    pass%operation = operation
+    pass%segments => segments
+    pass%factor = factor
+    if (present(x)) then
+      pass%x => x
+      n = size(x)
+    end if
+    if (present(y)) then
+      pass%y => y
+      n = size(y)
+    end if
+    if (present(z)) pass%z => z
+    call pass%run(n, 2)
+    if (operation == CENTER .or. operation == MAX_ABS) then
+      found = [(pass%largest(i), i=1, 2)]
+    else
+      found = [(pass%total(i), i=1, 2)]
+    end if
+  end subroutine share_operation
+
+  subroutine do_operation(self, k, first, last)
+    class(operation_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+    integer :: n, runs
+
+    if (last < first) return
+    associate (a => self%segments%before(k) + 1, b => self%segments%before(k + 1))
+      runs = b - a + 1
+      n = self%points
+      associate (begin => self%segments%first(a:b), finish => self%segments%last(a:b), found => self%found(:, k))
+        select case (self%operation)
+        case (TO_SUM)
+          found(1) = sum_on_runs(runs, begin, finish, n, self%x)
+        case (DOT)
+          found(1) = dot_on_runs(runs, begin, finish, n, self%x, self%z)
+        case (DOT_AND_SUM)
+          call dot_and_sum_on_runs(runs, begin, finish, n, self%x, self%z, found)
+        case (SUBTRACT_AND_DOT)
+          call subtract_and_dot_on_runs(runs, begin, finish, n, self%factor, self%x, self%y, self%z, found(1))
+        case (CENTER)
+          call center_on_runs(runs, begin, finish, n, self%factor, self%y, found(1))
+        case (MAX_ABS)
+          found(1) = max_abs_on_runs(runs, begin, finish, n, self%x)
+        case (ADD_SCALED)
+          call add_scaled_on_runs(runs, begin, finish, n, self%factor, self%x, self%y)
+        end select
+      end associate
+    end associate
+  end subroutine do_operation
 
 end module fuge_contact_segments

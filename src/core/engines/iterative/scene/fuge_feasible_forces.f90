@@ -1,6 +1,6 @@
 !> Forces that are feasible: on the contact set only, of the right sign, within their limits, and with the resultants.
 module fuge_feasible_forces
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, iterate_pass
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
@@ -51,37 +51,73 @@ contains
   end subroutine make_feasible
 
   !> No forces off the contact set, nor of the wrong sign on it.
-  pure subroutine clip_forces(scene, iterate)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(inout) :: iterate
-    integer :: k
+  subroutine clip_forces(scene, iterate)
+    type(contact_scene), intent(in), target :: scene
+    type(contact_iterate), intent(inout), target :: iterate
+    type(iterate_pass) :: pass
+    real(dp) :: none(0)
 
+    pass%scene => scene
+    pass%iterate => iterate
     if (.not. allocated(scene%play)) then
-      where (iterate%contact)
-        iterate%force = max(iterate%force, 0.0_dp)
-      else where
-        iterate%force = 0.0_dp
-      end where
-      return
+      call pass%go(clip_pushing, 0, none)
+    else if (scene%has_limits()) then
+      call pass%go(clip_to_ranges, 0, none)
+    else
+      call pass%go(clip_between_stops, 0, none)
     end if
-    if (scene%has_limits()) then
-      do k = 1, size(iterate%force)
-        iterate%force(k) = force_in_range(scene, iterate, k)
-      end do
-      return
-    end if
-    do k = 1, size(iterate%force)
-      if (.not. iterate%contact(k)) then
-        iterate%force(k) = 0.0_dp
-      else if (scene%is_tied(k)) then
-        cycle
-      else if (iterate%at_upper(k)) then
-        iterate%force(k) = min(iterate%force(k), 0.0_dp)
-      else
-        iterate%force(k) = max(iterate%force(k), 0.0_dp)
-      end if
-    end do
   end subroutine clip_forces
+
+  !> Clip forces of points with one stop. Finds nothing.
+  subroutine clip_pushing(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    integer :: i
+
+    if (k < 1) found = 0.0_dp
+    associate (force => pass%iterate%force, contact => pass%iterate%contact)
+      do i = first, last
+        force(i) = merge(max(force(i), 0.0_dp), 0.0_dp, contact(i))
+      end do
+    end associate
+  end subroutine clip_pushing
+
+  !> Clip forces that have limits. Finds nothing.
+  subroutine clip_to_ranges(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    integer :: i
+
+    if (k < 1) found = 0.0_dp
+    do i = first, last
+      pass%iterate%force(i) = force_in_range(pass%scene, pass%iterate, i)
+    end do
+  end subroutine clip_to_ranges
+
+  !> Clip forces of points that may have two stops. Finds nothing.
+  subroutine clip_between_stops(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    integer :: i
+
+    if (k < 1) found = 0.0_dp
+    associate (force => pass%iterate%force)
+      do i = first, last
+        if (.not. pass%iterate%contact(i)) then
+          force(i) = 0.0_dp
+        else if (pass%scene%is_tied(i)) then
+          cycle
+        else if (pass%iterate%at_upper(i)) then
+          force(i) = min(force(i), 0.0_dp)
+        else
+          force(i) = max(force(i), 0.0_dp)
+        end if
+      end do
+    end associate
+  end subroutine clip_between_stops
 
   !> The force of point `k`, or the nearest one that it may have: that of its limit, or none, off the contact set.
   pure function force_in_range(scene, iterate, k) result(force)
@@ -212,17 +248,52 @@ contains
 
   !> Forces of sum 1; equal ones where there are none.
   subroutine restore_load(iterate)
-    type(contact_iterate), intent(inout) :: iterate
-    real(dp) :: total
+    type(contact_iterate), intent(inout), target :: iterate
+    type(iterate_pass) :: pass
+    real(dp) :: none(0), sums(2)
 
-    total = iterate%segments%space%total(sum(iterate%force))
-    if (total > 0.0_dp) then
-      iterate%force = iterate%force/total
+    pass%iterate => iterate
+    call pass%go(sum_forces, 2, sums)
+    pass%value = iterate%segments%space%total(sums(1))
+    if (pass%value > 0.0_dp) then
+      call pass%go(divide_forces, 0, none)
     else
-      total = real(iterate%segments%space%total_count(count(iterate%contact)), dp)
-      where (iterate%contact) iterate%force = 1.0_dp/total
+      pass%value = real(iterate%segments%space%total_count(nint(sums(2))), dp)
+      call pass%go(set_equal_forces, 0, none)
     end if
   end subroutine restore_load
+
+  !> Found: the sum of the forces, and the number of points in contact.
+  subroutine sum_forces(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+
+    if (k > 0) found = [sum(pass%iterate%force(first:last)), real(count(pass%iterate%contact(first:last)), dp)]
+  end subroutine sum_forces
+
+  !> Divide the forces by the value of the pass. Finds nothing.
+  subroutine divide_forces(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+
+    if (k < 1) found = 0.0_dp
+    pass%iterate%force(first:last) = pass%iterate%force(first:last)/pass%value
+  end subroutine divide_forces
+
+  !> Divide 1 among the points in contact, of which the value of the pass is the number. Finds nothing.
+  subroutine set_equal_forces(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    integer :: i
+
+    if (k < 1) found = 0.0_dp
+    do i = first, last
+      if (pass%iterate%contact(i)) pass%iterate%force(i) = 1.0_dp/pass%value
+    end do
+  end subroutine set_equal_forces
 
   !> Forces with the resultants of the scene, on the set, or on the set and the points of scene%balance.
   subroutine restore_resultants(scene, iterate, info)
