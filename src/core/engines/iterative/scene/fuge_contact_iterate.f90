@@ -524,8 +524,10 @@ contains
     real(dp) :: least
     integer :: i, j
 
-    least = huge(least)
+    ! A rank without points must not lower the least sum of the others.
+    found(1) = -huge(least)
     if (last < first) return
+    least = huge(least)
     associate (segments => pass%iterate%segments, gap => pass%scene%gap, magnitude => pass%iterate%work)
       do i = segments%before(k) + 1, segments%before(k + 1)
         do j = segments%first(i), segments%last(i)
