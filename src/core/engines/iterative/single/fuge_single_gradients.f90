@@ -25,6 +25,11 @@ module fuge_single_gradients
   !> Residuals below the first multiple of the errors of the distances are replaced, unless these are below the second
   !> fraction of what is allowed.
   real(dp), parameter :: REPLACED = 100.0_dp, NEGLIGIBLE = 0.1_dp
+  !> Directions go on after a replacement if the residuals were more than this multiple of their errors.
+  real(dp), parameter :: RELATED = 10.0_dp
+  !> Between two replacements residuals fall below this fraction, or at most this often they do not.
+  real(dp), parameter :: HALVED = 0.5_dp
+  integer, parameter :: MOST_ATTEMPTS = 1
   !> Steps and replacements at most.
   integer, parameter :: LIMIT = 1000
   !> The least eigenvalue of a preconditioned system of which no step has told one.
@@ -46,20 +51,32 @@ contains
     logical, intent(out) :: lost
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
-    real(dp) :: energy, factor, largest, previous, step_length
-    integer :: iteration, steps
+    real(dp) :: energy, factor, largest, least_residual, previous, ratio, step_length
+    integer :: attempts, iteration, steps
+    logical :: goes_on
 
     lost = .false.
+    goes_on = .false.
+    least_residual = huge(least_residual)
+    attempts = 0
     iterate%converged = .false.
     call iterate%lanczos%restart()
     previous = 1.0_dp
     steps = 0
     do iteration = 0, LIMIT
       if (iterate%residual_norm < REPLACED*state%drift .and. &
-          state%drift > NEGLIGIBLE*tolerance*iterate%least_magnitude) then
+          state%drift > NEGLIGIBLE*residual_needed(iterate, tolerance, to_tolerance)) then
+        ! Residuals of the size of their errors were others than those that replace them.
+        goes_on = goes_on .and. iterate%residual_norm > RELATED*state%drift
         call restore_sum(scene, state, iterate)
         call refresh(operator, scene, .false., state, iterate, info)
         if (info%failed()) return
+        ! Residuals that are rounding in double precision get no smaller.
+        attempts = attempts + 1
+        if (iterate%residual_norm < HALVED*least_residual) attempts = 0
+        lost = attempts > MOST_ATTEMPTS
+        if (lost) return
+        least_residual = min(least_residual, iterate%residual_norm)
         cycle
       end if
       iterate%converged = is_accurate(iterate, tolerance)
@@ -70,9 +87,11 @@ contains
       call preconditioner%apply(operator, scene, state, iterate, factor, energy, info)
       lost = .not. energy > 0.0_dp
       if (lost .or. info%failed()) return
+      ratio = 0.0_dp
+      if (goes_on) ratio = energy/previous
       call state%point_to(scene, iterate, pass)
       pass%factor = factor
-      pass%ratio = merge(0.0_dp, energy/previous, steps == 0)
+      pass%ratio = ratio
       call pass%go(turn_direction, 1)
       largest = pass%largest(1)
       if (steps == 0 .or. is_accurate(iterate, NEARLY*tolerance)) then
@@ -86,12 +105,25 @@ contains
       call step(scene, energy, state, iterate, step_length)
       lost = .not. step_length > 0.0_dp
       if (lost) return
-      call iterate%lanczos%add(step_length, energy/previous)
+      call iterate%lanczos%add(step_length, ratio)
       previous = energy
+      goes_on = .true.
       steps = steps + 1
     end do
     lost = .true.
   end subroutine run_single_gradients
+
+  !> The residual at which the iteration stops, as far as its distances tell: that of the tolerance, or one that lets the
+  !> set be judged.
+  elemental function residual_needed(iterate, tolerance, to_tolerance)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(in) :: tolerance
+    logical, intent(in) :: to_tolerance
+    real(dp) :: residual_needed
+
+    residual_needed = tolerance*iterate%least_magnitude
+    if (.not. to_tolerance) residual_needed = max(residual_needed, DECISIVE*iterate%penetration)
+  end function residual_needed
 
   !> The least compliance where the forces to start from need no step: from the preconditioned residual, which stands
   !> for their error. Errors: those of the operator.

@@ -16,6 +16,9 @@ module fuge_single_state
   !> Products in single precision have errors of this fraction of their largest result.
   real(dp), parameter, public :: SINGLE_ERROR = 5.0e-7_dp
 
+  !> Distances are computed anew at most this often, until the motion is known to all digits.
+  integer, parameter :: MOST_ATTEMPTS = 4
+
   type, public :: single_state
     !> Distances from the stop, (n): gaps and displacements less the motion, plus `offset`. Those in the contact are the
     !> residuals, (n), zero off it.
@@ -136,17 +139,24 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
+    real(dp) :: mean
+    integer :: attempt
 
     if (.not. multiplied) call multiply(operator, iterate%force, iterate%displacement, info)
     if (.not. info%failed()) call iterate%segments%find(iterate%contact, info)
     if (info%failed()) return
     state%is_exact = .true.
-    state%drift = 0.0_dp
-    state%offset = 0.0_dp
-    call state%point_to(scene, iterate, pass)
-    call pass%go(take_displacements, 2)
-    state%largest = pass%largest(2)
-    call settle(operator, scene, pass%total(1)/real(iterate%segments%points, dp), state, iterate)
+    do attempt = 1, MOST_ATTEMPTS
+      state%drift = 0.0_dp
+      state%offset = 0.0_dp
+      call state%point_to(scene, iterate, pass)
+      call pass%go(take_displacements, 2)
+      state%largest = pass%largest(2)
+      mean = pass%total(1)/real(iterate%segments%points, dp)
+      call settle(operator, scene, mean, state, iterate)
+      ! Distances from another motion were rounded as far as it was off.
+      if (abs(mean) <= iterate%residual_norm) exit
+    end do
   end subroutine refresh
 
   !> Residuals, penetration and least magnitude, where the mean distance in the contact is `mean`.
