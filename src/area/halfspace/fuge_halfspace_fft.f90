@@ -279,7 +279,7 @@ contains
     class(fuge_halfspace_operator), intent(in) :: self
     logical :: single
 
-    single = self%single_influence%is_set() .and. self%single_inverse%is_set()
+    single = self%points() > 0 .and. self%single_influence%is_set() .and. self%single_inverse%is_set()
   end function has_single
 
   !> `apply` in single precision.

@@ -79,7 +79,7 @@ contains
 
     touch = iterate%contact
     open = WITHIN*(max(iterate%residual_norm, iterate%penetration) + iterate%rounding &
-                   + epsilon(open)*max_abs_over(iterate%segments, iterate%work)) + rounding
+                   + epsilon(open)*iterate%largest_magnitude) + rounding
     do k = 1, size(touch)
       if (touch(k) .or. scene%gap(k) >= OUT_OF_REACH) cycle
       gap = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
