@@ -10,6 +10,8 @@ module single_matrix
     !> Influence and preconditioner, both (n, n) and symmetric.
     real(dp), allocatable :: alpha(:, :), inverse(:, :)
     integer :: cells(2) = 0
+    !> The least magnitude of displacements by forces of the sum 1.
+    real(dp) :: least_magnitude = 0.0_dp
     !> Products in single precision are there.
     logical :: single = .true.
     !> What the product, or the preconditioning, of this number in single precision gives is lost: `status` or, if that
@@ -170,8 +172,7 @@ contains
     real(dp), intent(in) :: largest, total
     real(dp) :: magnitude
 
-    magnitude = largest
-    if (self%points() < 0) magnitude = total
+    magnitude = max(largest, self%least_magnitude*total)
   end function common_magnitude
 
 end module single_matrix

@@ -1,6 +1,6 @@
 !> Projected, preconditioned conjugate gradients on a contact set in single precision.
 !>
-!> As fuge_projected_gradients for one free translation. The forces and displacements that the steps add up to are in
+!> As fuge_projected_gradients for one translation. The forces and displacements that the steps add up to are in
 !> double precision; whenever the residuals get so small that the errors of the products count, one product in double
 !> precision gives the displacements anew and the residuals with them, and the directions go on (H. A. van der Vorst,
 !> Q. Ye, Residual replacement strategies for Krylov subspace iterative methods, SIAM Journal on Scientific Computing
@@ -13,7 +13,7 @@ module fuge_single_gradients
   use fuge_operator_type, only: fuge_operator
   use fuge_single_passes, only: point_pass, step_all, sum_curvature, turn_direction
   use fuge_single_preconditioner, only: single_preconditioner
-  use fuge_single_state, only: refresh, restore_sum, single_state, SINGLE_ERROR
+  use fuge_single_state, only: mean_in_contact, refresh, restore_sum, single_state, SINGLE_ERROR
   use fuge_status, only: fuge_info
   implicit none
   private
@@ -155,7 +155,7 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     real(dp), intent(out) :: step_length
     type(point_pass) :: pass
-    real(dp) :: curvature, mean, points
+    real(dp) :: curvature, mean
 
     step_length = 0.0_dp
     call state%point_to(scene, iterate, pass)
@@ -164,8 +164,7 @@ contains
     if (.not. (curvature > 0.0_dp .and. curvature <= huge(curvature))) return
     if (iterate%lanczos%is_suspect(curvature/energy)) return
     step_length = energy/curvature
-    points = real(iterate%segments%points, dp)
-    mean = pass%total(2)/points
+    mean = mean_in_contact(iterate, pass%total(2))
     state%drift = state%drift + SINGLE_ERROR*step_length*pass%largest(3) + epsilon(1.0_sp)*iterate%residual_norm
     iterate%motion = iterate%motion - step_length*mean
     pass%factor = step_length
@@ -174,7 +173,7 @@ contains
     state%is_exact = .false.
     call pass%go(step_all, 4)
     ! A mean left by rounding would grow.
-    state%offset = pass%total(1)/points
+    state%offset = mean_in_contact(iterate, pass%total(1))
     iterate%motion = iterate%motion + state%offset
     iterate%residual_norm = pass%largest(2)
     iterate%penetration = pass%largest(3)

@@ -60,13 +60,14 @@ contains
     call self%operation(self, k, first, last)
   end subroutine do_chunk
 
-  !> Contact where forces push. Found: the sum of these forces, and the largest gap.
+  !> Contact where forces push. Found: the sum of these forces, and the largest magnitude of a gap.
   subroutine sum_forces(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
 
     pass%contact(first:last) = pass%force(first:last) > 0.0_dp
-    pass%found(:, k) = [sum(pass%force(first:last), mask=pass%contact(first:last)), maxval(pass%gap(first:last))]
+    pass%found(:, k) = [sum(pass%force(first:last), mask=pass%contact(first:last)), &
+                        maxval(abs(pass%gap(first:last)))]
   end subroutine sum_forces
 
   !> Found: the sum of the forces in the contact.

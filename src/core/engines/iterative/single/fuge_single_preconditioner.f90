@@ -2,7 +2,7 @@
 module fuge_single_preconditioner
   use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: dp, sp
   use fuge_operator_products, only: precondition_single
   use fuge_operator_type, only: fuge_operator
   use fuge_single_passes, only: center_residuals, mark_contact, point_pass, sum_energy, sum_uniform, sum_with_uniform
@@ -47,8 +47,12 @@ contains
     type(point_pass) :: pass
     real(dp) :: points
 
+    if (iterate%prescribed .and. self%changed < 0) then
+      state%uniform = 0.0_sp
+      self%changed = 0
+    end if
+    if (self%changed == 0 .or. iterate%prescribed) return
     points = real(iterate%segments%points, dp)
-    if (self%changed == 0) return
     if (self%changed > 0 .and. real(self%changed, dp) <= CLOSE*points &
         .and. points <= SMALL*real(size(scene%gap), dp)) then
       call find_total(self, scene, state, iterate)
@@ -75,7 +79,7 @@ contains
   end subroutine find_total
 
   !> state%work less `factor` times state%uniform: forces on the contact whose displacements are close to the residuals
-  !> and whose sum is zero. `energy`: their inner product with the residuals. With the same projection before and after
+  !> and whose sum is zero unless the motion is prescribed; then `factor` is zero. `energy`: their inner product with the residuals. With the same projection before and after
   !> it the preconditioner is symmetric, whatever set `uniform` was computed for (doc/theory.md). Errors: those of the
   !> operator.
   subroutine apply(self, operator, scene, state, iterate, factor, energy, info)
@@ -91,7 +95,7 @@ contains
     factor = 0.0_dp
     energy = 0.0_dp
     call state%point_to(scene, iterate, pass)
-    if (self%changed > 0) then
+    if (self%changed > 0 .and. .not. iterate%prescribed) then
       call pass%go(sum_with_uniform, 1)
       pass%shift = pass%total(1)/self%total
       call pass%go(center_residuals, 0)
@@ -99,8 +103,9 @@ contains
     call precondition_single(operator, state%residual, state%work, info)
     if (info%failed()) return
     call pass%go(sum_energy, 2)
-    factor = pass%total(2)/self%total
     energy = pass%total(1)
+    if (iterate%prescribed) return
+    factor = pass%total(2)/self%total
     ! The inner product of `uniform` and the residuals is the sum of `work`, or zero if they are centred.
     if (self%changed == 0) energy = energy - factor*pass%total(2)
   end subroutine apply

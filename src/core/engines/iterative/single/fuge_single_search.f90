@@ -1,5 +1,5 @@
 !> Search for the contact set of a grid with products in single precision, which take half the time: where the operator
-!> has them, for one free translation and one-sided contact at all points.
+!> has them, for one translation, free or prescribed, and one-sided contact at all points.
 !>
 !> As fuge_contact_set_search. The last forces, gaps and residuals are as exact as with double precision throughout,
 !> because the displacements are those of products in double precision, or differ from them by less than the tolerance.
@@ -27,8 +27,9 @@ module fuge_single_search
   real(dp), parameter :: NEGLIGIBLE = 0.1_dp, LOOSE = 1.0e-5_dp
   !> Displacements below this fraction of the largest one that lengths were judged by are others than those.
   real(dp), parameter :: CURRENT = 0.5_dp
-  !> Larger gaps are out of the range of single precision, or their squares would be.
-  real(dp), parameter :: LARGEST_GAP = 1.0e15_dp
+  !> Larger gaps are out of the range of single precision, or their squares would be; so are those less a prescribed
+  !> approach that are all smaller.
+  real(dp), parameter :: LARGEST_GAP = 1.0e15_dp, SMALLEST_APPROACH = 1.0e-15_dp
 
 contains
 
@@ -37,9 +38,16 @@ contains
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
     logical :: suits
+    real(dp) :: datum, magnitude
 
-    suits = scene%is_simple() .and. scene%rows%is_alone() .and. .not. scene%prescribed
+    suits = scene%is_simple() .and. scene%rows%is_alone()
     if (suits) suits = operator%has_single()
+    ! Without a free translation equal forces have to displace the points.
+    if (suits .and. scene%prescribed) then
+      datum = operator%datum()
+      magnitude = operator%common_magnitude(0.0_dp, 1.0_dp)
+      suits = .not. (abs(datum) > 0.0_dp .or. magnitude > 0.0_dp)
+    end if
     if (suits) suits = all(operator%grid() > 1)
   end function suits_single
 
@@ -64,7 +72,7 @@ contains
     found = .false.
     call state%start(size(scene%gap), info)
     if (settings%prepared .and. .not. info%failed()) then
-      if (maxval(scene%gap) > LARGEST_GAP) return
+      if (.not. are_in_range(scene, maxval(abs(scene%gap)))) return
       call refresh(operator, scene, .true., state, iterate, info)
     else if (.not. info%failed()) then
       call start_forces(operator, scene, state, iterate, possible, info)
@@ -117,11 +125,21 @@ contains
 
     call state%point_to(scene, iterate, pass)
     call pass%go(sum_forces, 2)
-    possible = pass%largest(2) <= LARGEST_GAP
+    possible = are_in_range(scene, pass%largest(2))
     if (.not. possible) return
     call set_load(scene, pass%total(1), state, iterate)
     call start_displacements(operator, scene, state, iterate, info)
   end subroutine start_forces
+
+  !> Are gaps of which this is the `largest` magnitude in the range of single precision?
+  pure function are_in_range(scene, largest)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: largest
+    logical :: are_in_range
+
+    are_in_range = largest <= LARGEST_GAP
+    if (scene%prescribed) are_in_range = are_in_range .and. largest >= SMALLEST_APPROACH
+  end function are_in_range
 
   !> Are the displacements those of a product in double precision, or is the tolerance such that the errors of single
   !> precision do not count? Then they follow from the distances.
@@ -145,7 +163,8 @@ contains
     exact = pass%largest(1) >= CURRENT*state%largest
   end subroutine make_exact
 
-  !> Forces of sum 1 in the contact, in which they have the sum `total` now; equal ones if that is not positive.
+  !> Forces of sum 1 in the contact, in which they have the sum `total` now; equal ones if that is not positive. Where the
+  !> motion is prescribed, those that push.
   subroutine set_load(scene, total, state, iterate)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: total
@@ -155,7 +174,11 @@ contains
 
     call state%point_to(scene, iterate, pass)
     pass%factor = 0.0_dp
-    if (total > 0.0_dp) pass%factor = 1.0_dp/total
+    if (scene%prescribed) then
+      pass%factor = 1.0_dp
+    else if (total > 0.0_dp) then
+      pass%factor = 1.0_dp/total
+    end if
     pass%shift = 1.0_dp/real(size(scene%gap), dp)
     call pass%go(set_forces, 0)
   end subroutine set_load

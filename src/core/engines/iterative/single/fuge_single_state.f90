@@ -11,7 +11,7 @@ module fuge_single_state
   implicit none
   private
 
-  public :: move_forces, refresh, restore_sum, start_displacements
+  public :: mean_in_contact, move_forces, refresh, restore_sum, start_displacements
 
   !> Products in single precision have errors of this fraction of their largest result.
   real(dp), parameter, public :: SINGLE_ERROR = 5.0e-7_dp
@@ -89,7 +89,7 @@ contains
     call pass%go(sum_gaps, 2)
     state%largest = pass%largest(2)
     state%drift = SINGLE_ERROR*state%largest
-    iterate%motion = pass%total(1)/real(iterate%segments%points, dp)
+    iterate%motion = mean_in_contact(iterate, pass%total(1))
     pass%motion = iterate%motion
     call pass%go(start_distances, 0)
     call settle(operator, scene, 0.0_dp, state, iterate)
@@ -112,16 +112,27 @@ contains
     call state%point_to(scene, iterate, pass)
     call pass%go(add_moves, 2)
     state%drift = state%drift + SINGLE_ERROR*pass%largest(2)
-    call settle(operator, scene, pass%total(1)/real(iterate%segments%points, dp), state, iterate)
+    call settle(operator, scene, mean_in_contact(iterate, pass%total(1)), state, iterate)
   end subroutine move_forces
 
-  !> Forces of sum 1, from which steps in single precision lead away by rounding.
+  !> The mean of distances over the contact, where they have the sum `total`: what a free translation takes up.
+  elemental function mean_in_contact(iterate, total) result(mean)
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(in) :: total
+    real(dp) :: mean
+
+    mean = 0.0_dp
+    if (.not. iterate%prescribed) mean = total/real(iterate%segments%points, dp)
+  end function mean_in_contact
+
+  !> Forces of sum 1, from which steps in single precision lead away by rounding, unless the motion is prescribed.
   subroutine restore_sum(scene, state, iterate)
     type(contact_scene), intent(in) :: scene
     type(single_state), intent(in) :: state
     type(contact_iterate), intent(inout) :: iterate
     type(point_pass) :: pass
 
+    if (scene%prescribed) return
     call state%point_to(scene, iterate, pass)
     call pass%go(sum_contact_forces, 1)
     if (.not. abs(pass%total(1) - 1.0_dp) < 0.01_dp) return
@@ -152,7 +163,7 @@ contains
       call state%point_to(scene, iterate, pass)
       call pass%go(take_displacements, 2)
       state%largest = pass%largest(2)
-      mean = pass%total(1)/real(iterate%segments%points, dp)
+      mean = mean_in_contact(iterate, pass%total(1))
       call settle(operator, scene, mean, state, iterate)
       ! Distances from another motion were rounded as far as it was off.
       if (abs(mean) <= iterate%residual_norm) exit
@@ -176,7 +187,8 @@ contains
     iterate%residual_norm = pass%largest(1)
     iterate%penetration = pass%largest(2)
     iterate%largest_magnitude = operator%common_magnitude(state%largest, 1.0_dp)
-    iterate%least_magnitude = iterate%largest_magnitude - pass%largest(3)
+    iterate%least_magnitude = 0.0_dp
+    if (iterate%segments%points > 0) iterate%least_magnitude = iterate%largest_magnitude - pass%largest(3)
     ! Distances are rounded as long as they are large.
     state%drift = state%drift + epsilon(1.0_sp)*(abs(mean) + iterate%residual_norm)
     if (iterate%start_error < 0.0_dp) iterate%start_error = relative_error(iterate)
