@@ -90,26 +90,30 @@ contains
   subroutine find_in_chunk(self, k, first, last)
     class(segment_pass), intent(inout) :: self
     integer, intent(in) :: k, first, last
-    integer :: i, number, points
 
     if (associated(self%before)) then
       call note_segments(first, self%contact(first:last), self%first(self%before(k) + 1:self%before(k + 1)), &
                          self%last(self%before(k) + 1:self%before(k + 1)))
       return
     end if
-    number = 0
-    points = 0
-    do i = first, last
-      if (.not. self%contact(i)) cycle
-      points = points + 1
-      if (i == first) then
-        number = number + 1
-      else if (.not. self%contact(i - 1)) then
-        number = number + 1
-      end if
-    end do
-    self%found(:, k) = real([number, points], dp)
+    if (last >= first) call count_segments(self%contact(first:last), self%found(:, k))
   end subroutine find_in_chunk
+
+  !> The number of segments of `contact` and that of its points; without branches, so that the compiler can do several
+  !> points at once.
+  pure subroutine count_segments(contact, found)
+    logical, intent(in), contiguous :: contact(:)
+    real(dp), intent(inout), contiguous :: found(:)
+    integer :: i, number, points
+
+    points = merge(1, 0, contact(1))
+    number = points
+    do i = 2, size(contact)
+      points = points + merge(1, 0, contact(i))
+      number = number + merge(1, 0, contact(i) .and. .not. contact(i - 1))
+    end do
+    found = real([number, points], dp)
+  end subroutine count_segments
 
   !> The first and last points of the segments of `contact`, whose first point has the number `begin`.
   pure subroutine note_segments(begin, contact, first, last)
