@@ -3,8 +3,8 @@
 !> It shares no code with any engine but the call of the operator, and sees only the caller's data.
 module fuge_certificate
   use fuge_certificate_passes, only: add_rounding_of_bodies, certificate_pass, find_arms, find_reference, &
-    find_rigid_displacement, judge_points, point_lengths, sum_open_lengths, sum_terms, survey_displacements, &
-    survey_forces
+    find_rigid_displacement, judge_points, sum_open_lengths, sum_terms, survey_displacements, &
+    survey_forces, tile_lengths, TILE
   use fuge_data_scales, only: data_length, largest_by_mode, largest_of_body
   use fuge_elastic_energy, only: elastic_energy, energy_units
   use fuge_kinds, only: dp
@@ -123,14 +123,14 @@ contains
     type(certificate_pass) :: pass
     type(point_space) :: space
     real(dp), allocatable, target :: error(:), lengths(:, :)
-    real(dp) :: forces(3), units(2)
+    real(dp) :: forces(3), none(0), sums(2), units(2)
     integer :: stat
 
     space = operator%ranks()
     call pass%point_to(problem, solution)
     call pass%go(survey_forces)
     ! Violations stay huge: a product with NaN would show nothing.
-    if (space%anywhere(pass%largest(1) > 0.0_dp)) return
+    if (space%anywhere(pass%largest(3) > 0.0_dp)) return
     call take_forces(pass, space, forces)
     ! One array, because small problems spend much of their time on allocations. What all points share needs none.
     allocate (lengths(size(solution%force), columns_needed(operator, problem)), stat=stat)
@@ -148,9 +148,10 @@ contains
     if (info%failed()) return
     call find_motions(operator%datum(), forces, space, pass)
     call pass%go(find_reference)
-    pass%shares = space%total(pass%total(4))
-    info%energy = elastic_energy(problem, solution%motion, space%total(pass%total(1)), units, forces(1), &
-                                 operator%datum())
+    call pass%take(3, sums, none)
+    call space%add(sums)
+    pass%shares = sums(2)
+    info%energy = elastic_energy(problem, solution%motion, sums(1), units, forces(1), operator%datum())
     call judge_with_reference(pass, space, violation)
     violation%equilibrium = equilibrium_violation(problem, solution, forces, space)
     violation%unresolved = unresolved_lengths(pass, forces(2), space)
@@ -169,14 +170,15 @@ contains
     real(dp), intent(out) :: forces(3)
     real(dp) :: largest(3)
 
-    forces(:2) = [pass%total(2), pass%total(3)]
+    call pass%take(4, forces(:2), largest)
     call space%add(forces(:2))
-    largest = [pass%largest(4), pass%largest(5), pass%largest(6)]
     call space%raise(largest)
     forces(3) = largest(1)
     pass%largest_force = largest(1)
     pass%largest_included = largest(2)
     pass%is_any_included = largest(3) > 0.0_dp
+    ! Forces that push with one load between them do not dwarf it.
+    pass%with_shares = pass%largest_included > 0.0_dp .and. .not. pass%problem%is_plain()
   end subroutine take_forces
 
   !> Do all points have the same size of the terms of their displacements?
@@ -208,7 +210,7 @@ contains
     real(dp), intent(out) :: units(2)
     type(fuge_info), intent(inout) :: info
     type(point_space) :: space
-    real(dp) :: largest(2)
+    real(dp) :: largest(2), no_sums(0)
 
     units = 1.0_dp
     space = operator%ranks()
@@ -219,7 +221,7 @@ contains
     end if
     if (info%failed()) return
     call pass%go(survey_displacements)
-    largest = [pass%largest(1), pass%largest(2)]
+    call pass%take(1, no_sums, largest)
     call space%raise(largest)
     if (.not. associated(pass%terms)) pass%common_terms = operator%common_magnitude(largest(1), forces(2))
     units = energy_units([forces(3), largest(2)])
@@ -231,7 +233,8 @@ contains
     real(dp), intent(in) :: datum, forces(3)
     type(point_space), intent(in) :: space
     type(certificate_pass), intent(inout) :: pass
-    integer :: j, m
+    real(dp) :: no_sums(0)
+    integer :: m
 
     pass%common_rigid = -datum*forces(1)
     ! Forces of both signs may cancel in the sum, but not their rounding.
@@ -244,7 +247,7 @@ contains
     m = size(pass%solution%motion)
     call pass%go(find_rigid_displacement, numbers=2*m)
     allocate (pass%by_mode(2*m))
-    pass%by_mode = [(pass%largest(j), j=1, 2*m)]
+    call pass%take(1, no_sums, pass%by_mode)
     call space%raise(pass%by_mode)
     call pass%go(add_rounding_of_bodies)
   end subroutine find_motions
@@ -255,24 +258,24 @@ contains
     type(certificate_pass), intent(inout) :: pass
     type(point_space), intent(in) :: space
     type(fuge_violation), intent(inout) :: violation
-    type(point_lengths) :: at
-    real(dp) :: at_reference(4), key, violations(3)
+    type(tile_lengths) :: at
+    real(dp) :: at_reference(4), key, no_sums(0), violations(3)
     integer :: reference
 
     key = huge(key)
     at_reference = 0.0_dp
     reference = pass%reference()
     if (reference > 0) then
-      at = pass%lengths_at(reference)
-      key = merge(at%magnitude, pass%gap(reference), pass%largest_force > 0.0_dp)
-      at_reference = [at%error, at%magnitude, pass%gap(reference), at%rigid_magnitude]
+      call pass%find_lengths(reference, reference, at)
+      key = merge(at%magnitude(1), pass%gap(reference), pass%largest_force > 0.0_dp)
+      at_reference = [at%error(1), at%magnitude(1), pass%gap(reference), at%rigid_magnitude(1)]
     end if
     call space%take_from_least(key, at_reference)
     if (.not. associated(pass%rigid)) pass%shared_error = at_reference(1)
     pass%reference_magnitude = at_reference(2)
     pass%reference_gap = at_reference(3)
     call pass%go(judge_points)
-    violations = [pass%largest(1), pass%largest(2), pass%largest(3)]
+    call pass%take(1, no_sums, violations)
     call space%raise(violations)
     violation%gap_equation = max(violations(1), relative(abs(pass%shared_error), &
       max(at_reference(4), abs(at_reference(3)), at_reference(2))))
@@ -321,7 +324,7 @@ contains
     real(dp), allocatable, intent(out) :: error(:)
     type(fuge_info), intent(inout) :: info
     type(point_space) :: space
-    type(point_lengths) :: at
+    type(tile_lengths) :: at
     real(dp), allocatable, dimension(:) :: largest, of_bodies, rounding, terms
     real(dp) :: most
     integer :: k, n, stat
@@ -339,16 +342,17 @@ contains
     if (info%failed()) return
     most = -huge(most)
     do k = 1, n
-      at = pass%lengths_at(k)
-      error(k) = at%error
-      if (.not. pass%included(k) .or. at%magnitude > NO_SCALE*terms(k)) terms(k) = 0.0_dp
-      rounding(k) = NO_SCALE*terms(k)
-      ! Where no force displaces a point, its rigid gap may be the rounding of the gap and the motions.
-      if (at%elastic <= 0.0_dp .and. at%magnitude <= NO_SCALE*(abs(pass%gap(k)) + at%rigid_magnitude)) then
-        rounding(k) = NO_SCALE*(abs(pass%gap(k)) + at%rigid_magnitude)
-      end if
-      terms(k) = merge(terms(k) + at%elastic, 0.0_dp, pass%included(k))
-      if (pass%included(k)) most = max(most, terms(k) + at%rigid_magnitude)
+      if (mod(k - 1, TILE) == 0) call pass%find_lengths(k, min(k + TILE - 1, n), at)
+      associate (elastic => at%elastic(mod(k - 1, TILE) + 1), magnitude => at%magnitude(mod(k - 1, TILE) + 1), &
+                 rigid => abs(pass%gap(k)) + at%rigid_magnitude(mod(k - 1, TILE) + 1))
+        error(k) = at%error(mod(k - 1, TILE) + 1)
+        if (.not. pass%included(k) .or. magnitude > NO_SCALE*terms(k)) terms(k) = 0.0_dp
+        rounding(k) = NO_SCALE*terms(k)
+        ! Where no force displaces a point, its rigid gap may be the rounding of the gap and the motions.
+        if (elastic <= 0.0_dp .and. magnitude <= NO_SCALE*rigid) rounding(k) = NO_SCALE*rigid
+        terms(k) = merge(terms(k) + elastic, 0.0_dp, pass%included(k))
+        if (pass%included(k)) most = max(most, terms(k) + (at%rigid_magnitude(mod(k - 1, TILE) + 1)))
+      end associate
     end do
     largest = space%largest(most)
     if (associated(pass%rigid)) then
@@ -378,9 +382,7 @@ contains
     real(dp) :: length, length_beside, terms
 
     violation = 0.0_dp
-    ! Forces that push with one load between them do not dwarf it.
-    if (pass%problem%is_plain()) return
-    if (.not. pass%largest_included > 0.0_dp) return
+    if (.not. pass%with_shares) return
     pass%least_force = -1.0_dp
     call find_data_length(pass, total, space, length, terms)
     if (DWARFED*terms <= length) return
@@ -399,18 +401,17 @@ contains
     real(dp), intent(in) :: total
     type(point_space), intent(in) :: space
     real(dp), intent(out) :: length, terms
-    real(dp) :: arms(pass%problem%mode_count()), extremes(5)
-    integer :: j
+    real(dp) :: arms(pass%problem%mode_count()), extremes(5), no_sums(0), sums(1)
 
     arms = 1.0_dp
     if (associated(pass%rigid)) then
       call pass%go(find_arms, numbers=size(arms))
-      arms = [(pass%largest(j), j=1, size(arms))]
+      call pass%take(1, no_sums, arms)
       call space%raise(arms)
     end if
     call pass%go(sum_terms)
-    terms = space%total(pass%total(1))
-    extremes = [(pass%largest(j), j=2, 6)]
+    call pass%take(2, sums, extremes)
+    terms = space%total(sums(1))
     call space%raise(extremes)
     length = data_length(pass%problem, arms, extremes, total)
   end subroutine find_data_length

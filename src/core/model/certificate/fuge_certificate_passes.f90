@@ -17,6 +17,8 @@ module fuge_certificate_passes
 
   !> Numbers that a pass finds in each chunk, used or not, so that all passes share one array.
   integer, parameter :: RESULTS = 6
+  !> Points of which the lengths are computed at once, into arrays that stay in the cache.
+  integer, parameter, public :: TILE = 128
 
   !> What the passes read, with arrays of (n): pointers to what belongs to the caller.
   type, extends(chunked_pass), public :: certificate_pass
@@ -45,25 +47,29 @@ module fuge_certificate_passes
     real(dp) :: shared_error = 0.0_dp, reference_magnitude = 0.0_dp, reference_gap = 0.0_dp
     !> Only points with larger forces count where lengths of the data are sought.
     real(dp) :: least_force = -1.0_dp
-    !> The sum of the forces as fractions of the largest one.
+    !> The sum of the forces of points that are not excluded, as fractions of the largest one, if it is wanted.
     real(dp) :: shares = 0.0_dp
+    logical :: with_shares = .false.
     procedure(chunk_operation), pointer, nopass :: operation => null()
   contains
     procedure :: point_to
     procedure :: do_chunk
     procedure :: go
     procedure :: included
-    procedure :: lengths_at
+    procedure :: find_lengths
+    procedure :: find_magnitudes
     procedure :: reference
   end type certificate_pass
 
-  !> Lengths of a point.
-  type, public :: point_lengths
+  !> Lengths of TILE points or less; not initialised, because most of them are overwritten at once.
+  type, public :: tile_lengths
+    !> Gap less R q and the displacement by the datum.
+    real(dp) :: rigid_gap(TILE)
     !> Error of equation (9), and the magnitude with which it is compared.
-    real(dp) :: error = 0.0_dp, magnitude = 0.0_dp
-    !> Size of the terms of its displacement by forces, and by motions and the datum.
-    real(dp) :: elastic = 0.0_dp, rigid_magnitude = 0.0_dp
-  end type point_lengths
+    real(dp) :: error(TILE), magnitude(TILE)
+    !> Size of the terms of displacements by forces, and by motions and the datum.
+    real(dp) :: elastic(TILE), rigid_magnitude(TILE)
+  end type tile_lengths
 
   abstract interface
     !> Chunk `k`, the points `first` .. `last`.
@@ -120,66 +126,80 @@ contains
     if (allocated(self%problem%excluded)) included = .not. self%problem%excluded(k)
   end function included
 
-  !> The lengths of point `k`.
-  pure function lengths_at(self, k) result(lengths)
+  !> The magnitudes and their terms of the points `first` .. `last`, at most TILE.
+  pure subroutine find_magnitudes(self, first, last, at)
     class(certificate_pass), intent(in) :: self
-    integer, intent(in) :: k
-    type(point_lengths) :: lengths
-    real(dp) :: rigid_gap
+    integer, intent(in) :: first, last
+    type(tile_lengths), intent(inout) :: at
+    integer :: n
 
+    n = last - first + 1
     if (associated(self%terms)) then
-      lengths%elastic = self%terms(k)
+      at%elastic(:n) = self%terms(first:last)
     else
-      lengths%elastic = self%common_terms
+      at%elastic(:n) = self%common_terms
     end if
-    if (allocated(self%problem%compliance)) lengths%elastic = lengths%elastic &
-      + self%problem%compliance(k)*abs(self%force(k))
+    if (allocated(self%problem%compliance)) at%elastic(:n) = at%elastic(:n) &
+      + self%problem%compliance(first:last)*abs(self%force(first:last))
     if (associated(self%rigid)) then
-      rigid_gap = self%gap(k) - self%rigid(k)
-      lengths%rigid_magnitude = self%rigid_magnitude(k)
+      at%rigid_gap(:n) = self%gap(first:last) - self%rigid(first:last)
+      at%rigid_magnitude(:n) = self%rigid_magnitude(first:last)
     else
-      rigid_gap = self%gap(k) - self%common_rigid
-      lengths%rigid_magnitude = self%common_rigid_magnitude
+      at%rigid_gap(:n) = self%gap(first:last) - self%common_rigid
+      at%rigid_magnitude(:n) = self%common_rigid_magnitude
     end if
-    lengths%magnitude = abs(rigid_gap) + lengths%elastic
-    if (associated(self%error)) then
-      lengths%error = self%error(k)
-    else
-      lengths%error = rigid_gap + self%displacement(k) - self%gap_under_load(k)
-    end if
-  end function lengths_at
+    at%magnitude(:n) = abs(at%rigid_gap(:n)) + at%elastic(:n)
+  end subroutine find_magnitudes
 
-  !> Found: 1 if a force is not finite, in place of the rest; the sum of the forces, that of their magnitudes, the
+  !> All lengths of these points.
+  pure subroutine find_lengths(self, first, last, at)
+    class(certificate_pass), intent(in) :: self
+    integer, intent(in) :: first, last
+    type(tile_lengths), intent(inout) :: at
+    integer :: n
+
+    call find_magnitudes(self, first, last, at)
+    n = last - first + 1
+    if (associated(self%error)) then
+      at%error(:n) = self%error(first:last)
+    else
+      at%error(:n) = at%rigid_gap(:n) + self%displacement(first:last) - self%gap_under_load(first:last)
+    end if
+  end subroutine find_lengths
+
+  !> Found: the sum of the forces and that of their magnitudes; 1 if a force is not finite, in place of the rest, the
   !> largest magnitude, that of the points that are not excluded, and 1 if there are such points.
   subroutine survey_forces(pass, k, first, last)
     class(certificate_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
-    real(dp) :: found(6), size_of_force
+    real(dp) :: any_included, force, largest, most_included, total, total_magnitude
     integer :: i
 
-    found = 0.0_dp
-    if (is_finite_everywhere(pass%force(first:last))) then
-      if (allocated(pass%problem%excluded)) then
-        do i = first, last
-          if (pass%problem%excluded(i)) cycle
-          found(5) = max(found(5), abs(pass%force(i)))
-          found(6) = 1.0_dp
-        end do
-      end if
-      do i = first, last
-        size_of_force = abs(pass%force(i))
-        found(2) = found(2) + pass%force(i)
-        found(3) = found(3) + size_of_force
-        found(4) = max(found(4), size_of_force)
-      end do
-      if (.not. allocated(pass%problem%excluded)) then
-        found(5) = found(4)
-        if (last >= first) found(6) = 1.0_dp
-      end if
-    else
-      found(1) = 1.0_dp
+    if (.not. is_finite_everywhere(pass%force(first:last))) then
+      pass%found(3, k) = 1.0_dp
+      return
     end if
-    pass%found(:, k) = found
+    total = 0.0_dp
+    total_magnitude = 0.0_dp
+    largest = 0.0_dp
+    do i = first, last
+      force = abs(pass%force(i))
+      total = total + pass%force(i)
+      total_magnitude = total_magnitude + force
+      largest = max(largest, force)
+    end do
+    any_included = merge(1.0_dp, 0.0_dp, last >= first)
+    most_included = largest
+    if (allocated(pass%problem%excluded)) then
+      any_included = 0.0_dp
+      most_included = 0.0_dp
+      do i = first, last
+        if (pass%problem%excluded(i)) cycle
+        any_included = 1.0_dp
+        most_included = max(most_included, abs(pass%force(i)))
+      end do
+    end if
+    pass%found(:, k) = [total, total_magnitude, 0.0_dp, largest, most_included, any_included]
   end subroutine survey_forces
 
   !> Add the displacements by compliances. Found: the largest magnitude of a displacement without them, and with them.
@@ -216,8 +236,10 @@ contains
         length = 0.0_dp
         do i = first, last
           if (.not. abs(modes(i, j)) > 0.0_dp) cycle
-          force = max(force, abs(pass%force(i)))
-          if (included(pass, i)) length = max(length, abs(pass%gap(i)) + pass%rigid_magnitude(i))
+          if (abs(pass%force(i)) > force) force = abs(pass%force(i))
+          if (abs(pass%gap(i)) + pass%rigid_magnitude(i) > length) then
+            if (included(pass, i)) length = abs(pass%gap(i)) + pass%rigid_magnitude(i)
+          end if
         end do
         pass%found(j, k) = length
         pass%found(size(motion) + j, k) = force
@@ -230,61 +252,76 @@ contains
   subroutine add_rounding_of_bodies(pass, k, first, last)
     class(certificate_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
-    integer :: i
+    real(dp) :: largest
+    integer :: i, j, moving
 
     if (k < 1) return
     associate (modes => pass%problem%modes)
       do i = first, last
-        pass%rigid_magnitude(i) = pass%rigid_magnitude(i) + max(count(abs(modes(i, :)) > 0.0_dp), 1) &
-                                  *largest_of_body(modes, pass%by_mode(:size(modes, 2)), i)
+        largest = 0.0_dp
+        moving = 0
+        do j = 1, size(modes, 2)
+          if (.not. abs(modes(i, j)) > 0.0_dp) cycle
+          moving = moving + 1
+          if (pass%by_mode(j) > largest) largest = pass%by_mode(j)
+        end do
+        pass%rigid_magnitude(i) = pass%rigid_magnitude(i) + moving*largest
       end do
     end associate
   end subroutine add_rounding_of_bodies
 
-  !> Found: the work of the forces on the displacements in the units of which `inverse_unit` has the inverse; the least
-  !> magnitude of a contact point, or the least gap where there are no forces, and the number of that point, 0 if there
-  !> is none; the sum of the forces of points that are not excluded, as fractions of the largest one.
+  !> Found: the work of the forces on the displacements in the units of which `inverse_unit` has the inverse; the sum of
+  !> the forces of points that are not excluded, as fractions of the largest one; the least magnitude of a contact
+  !> point, or the least gap where there are no forces, and the number of that point, 0 if there is none.
   subroutine find_reference(pass, k, first, last)
     class(certificate_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
-    type(point_lengths) :: at
-    real(dp) :: contact_force, force, key, shares, value, work
-    integer :: i, reference
+    type(tile_lengths) :: at
+    real(dp) :: contact_force, force, inverse(2), key, shares, work
+    integer :: i, reference, start
+    logical :: excludes, has_forces
 
     work = 0.0_dp
     shares = 0.0_dp
     key = 0.0_dp
     reference = 0
+    excludes = allocated(pass%problem%excluded)
+    inverse = pass%inverse_unit
+    has_forces = pass%largest_force > 0.0_dp
     ! A force of rounding size is no contact.
-    contact_force = sqrt(epsilon(force))*pass%largest_force
-    do i = first, last
-      force = abs(pass%force(i))
-      if (force > 0.0_dp) then
-        work = work + (pass%force(i)*pass%inverse_unit(1))*(pass%displacement(i)*pass%inverse_unit(2))
-        if (force > contact_force) then
-          if (included(pass, i)) then
-            at = lengths_at(pass, i)
-            if (comes_before(at%magnitude, key, reference)) then
-              key = at%magnitude
-              reference = i
-            end if
-          end if
-        end if
-        if (pass%largest_included > 0.0_dp) then
-          if (included(pass, i)) shares = shares + force/pass%largest_included
-        end if
-      else if (.not. pass%largest_force > 0.0_dp) then
-        value = pass%gap(i)
-        if (included(pass, i)) then
-          if (comes_before(value, key, reference)) then
-            key = value
-            reference = i
-          end if
-        end if
+    contact_force = -1.0_dp
+    if (has_forces) contact_force = sqrt(epsilon(force))*pass%largest_force
+    do start = first, last, TILE
+      if (has_forces) then
+        call find_magnitudes(pass, start, min(start + TILE - 1, last), at)
+      else
+        call find_gaps(pass, start, min(start + TILE - 1, last), at)
       end if
+      do i = start, min(start + TILE - 1, last)
+        force = abs(pass%force(i))
+        if (force > 0.0_dp) work = work + (pass%force(i)*inverse(1))*(pass%displacement(i)*inverse(2))
+        if (.not. force > contact_force .and. .not. pass%with_shares) cycle
+        if (excludes) then
+          if (.not. included(pass, i)) cycle
+        end if
+        if (pass%with_shares) shares = shares + force/pass%largest_included
+        if (.not. force > contact_force) cycle
+        if (.not. comes_before(at%magnitude(i - start + 1), key, reference)) cycle
+        key = at%magnitude(i - start + 1)
+        reference = i
+      end do
     end do
-    pass%found(:4, k) = [work, key, real(reference, dp), shares]
+    pass%found(:4, k) = [work, shares, key, real(reference, dp)]
   end subroutine find_reference
+
+  !> Gaps in place of magnitudes.
+  pure subroutine find_gaps(pass, first, last, at)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    type(tile_lengths), intent(inout) :: at
+
+    at%magnitude(:last - first + 1) = pass%gap(first:last)
+  end subroutine find_gaps
 
   !> Is `value` less than the `key` of the point `reference`, or is there no such point? Numbers are less than NaN.
   pure function comes_before(value, key, reference)
@@ -305,10 +342,10 @@ contains
     reference = 0
     key = 0.0_dp
     do k = 1, size(self%found, 2)
-      if (.not. self%found(3, k) > 0.0_dp) cycle
-      if (.not. comes_before(self%found(2, k), key, reference)) cycle
-      key = self%found(2, k)
-      reference = int(self%found(3, k))
+      if (.not. self%found(4, k) > 0.0_dp) cycle
+      if (.not. comes_before(self%found(3, k), key, reference)) cycle
+      key = self%found(3, k)
+      reference = int(self%found(4, k))
     end do
   end function reference
 
@@ -316,33 +353,81 @@ contains
   subroutine judge_points(pass, k, first, last)
     class(certificate_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
-    type(point_lengths) :: at
-    real(dp) :: body_force, rounding, violations(3)
-    logical :: limited
-    integer :: i
+    type(tile_lengths) :: at
+    real(dp) :: violations(3)
+    integer :: finish, start
+    logical :: simple
 
+    associate (problem => pass%problem)
+      simple = .not. (allocated(problem%excluded) .or. allocated(problem%gap_upper) .or. allocated(pass%by_mode) &
+                      .or. problem%has_limits())
+    end associate
     violations = 0.0_dp
-    limited = pass%problem%has_limits()
-    rounding = 0.0_dp
-    body_force = pass%largest_force
-    do i = first, last
-      at = lengths_at(pass, i)
-      call judge_gap(pass, pass%gap(i), at, violations(1))
-      if (.not. included(pass, i)) then
-        call raise_to(violations(2), abs(pass%force(i)), pass%largest_force)
-        cycle
-      end if
-      if (allocated(pass%by_mode)) call find_force_of_body(pass, i, body_force, rounding)
-      if (limited) then
-        call judge_law(pass%problem%law(i), pass%force(i), pass%gap_under_load(i), body_force, at%magnitude, rounding, &
-                       violations(2:3))
+    do start = first, last, TILE
+      finish = min(start + TILE - 1, last)
+      call find_lengths(pass, start, finish, at)
+      call judge_gaps(pass, start, finish, at, violations(1))
+      if (simple) then
+        call judge_one_stop(pass, start, finish, at, violations(2:3))
       else
-        call judge_stops(pass%force(i), pass%gap_under_load(i), upper_stop(pass, i), body_force, at%magnitude, &
-                         rounding, violations(2:3))
+        call judge_contact(pass, start, finish, at, violations(2:3))
       end if
     end do
     pass%found(:3, k) = violations
   end subroutine judge_points
+
+  !> Raise `violations`, of signs and of complementarity, to those of the points `first` .. `last`, with lengths `at`.
+  pure subroutine judge_contact(pass, first, last, at, violations)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    type(tile_lengths), intent(in) :: at
+    real(dp), intent(inout) :: violations(2)
+    real(dp) :: body_force, rounding
+    logical :: excludes, limited
+    integer :: i
+
+    excludes = allocated(pass%problem%excluded)
+    limited = pass%problem%has_limits()
+    rounding = 0.0_dp
+    body_force = pass%largest_force
+    do i = first, last
+      if (excludes) then
+        if (.not. included(pass, i)) then
+          call raise_to(violations(1), abs(pass%force(i)), pass%largest_force)
+          cycle
+        end if
+      end if
+      if (allocated(pass%by_mode)) call find_force_of_body(pass, i, body_force, rounding)
+      if (limited) then
+        call judge_law(pass%problem%law(i), pass%force(i), pass%gap_under_load(i), body_force, &
+                       at%magnitude(i - first + 1), rounding, violations)
+      else
+        call judge_stops(pass%force(i), pass%gap_under_load(i), upper_stop(pass, i), body_force, &
+                         at%magnitude(i - first + 1), rounding, violations)
+      end if
+    end do
+  end subroutine judge_contact
+
+  !> As `judge_contact`, where all points have one stop and belong to one body.
+  pure subroutine judge_one_stop(pass, first, last, at, violations)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    type(tile_lengths), intent(in) :: at
+    real(dp), intent(inout) :: violations(2)
+    real(dp) :: force, gap
+    integer :: i
+
+    do i = first, last
+      force = pass%force(i)
+      gap = pass%gap_under_load(i)
+      if (.not. gap >= 0.0_dp) call raise_to(violations(1), -gap, at%magnitude(i - first + 1))
+      if (abs(force) <= 0.0_dp) cycle
+      if (force < 0.0_dp) call raise_to(violations(1), -force, pass%largest_force)
+      if (.not. may_exceed(violations(2), abs(gap), at%magnitude(i - first + 1))) cycle
+      violations(2) = max(violations(2), min(relative(abs(force), pass%largest_force), &
+                                             relative(abs(gap), at%magnitude(i - first + 1))))
+    end do
+  end subroutine judge_one_stop
 
   !> The upper stop of point `k`; huge without one.
   pure function upper_stop(pass, k) result(upper)
@@ -354,21 +439,28 @@ contains
     if (allocated(pass%problem%gap_upper)) upper = min(pass%problem%gap_upper(k), upper)
   end function upper_stop
 
-  !> Raise `violation` to that of equation (9) at a point with the initial `gap`.
-  pure subroutine judge_gap(pass, gap, at, violation)
+  !> Raise `violation` to those of equation (9) at the points `first` .. `last`, with lengths `at`.
+  pure subroutine judge_gaps(pass, first, last, at, violation)
     class(certificate_pass), intent(in) :: pass
-    real(dp), intent(in) :: gap
-    type(point_lengths), intent(in) :: at
+    integer, intent(in) :: first, last
+    type(tile_lengths), intent(in) :: at
     real(dp), intent(inout) :: violation
-    real(dp) :: excess, rounding
+    real(dp) :: excess, reference_gap, reference_magnitude, rounding, shared_error
+    integer :: i, k
 
-    ! max may ignore a NaN, which must not pass for small.
-    if (.not. abs(at%error) <= huge(violation)) violation = huge(violation)
-    ! Half a unit in the last place each, of the gaps and of the motions, and as much for their sum.
-    rounding = abs(gap) + abs(pass%reference_gap) + at%rigid_magnitude
-    excess = max(abs(at%error - pass%shared_error) - 2.0_dp*epsilon(excess)*rounding, 0.0_dp)
-    call raise_to(violation, excess, at%magnitude + pass%reference_magnitude)
-  end subroutine judge_gap
+    shared_error = pass%shared_error
+    reference_gap = abs(pass%reference_gap)
+    reference_magnitude = pass%reference_magnitude
+    do i = 1, last - first + 1
+      k = first + i - 1
+      ! max may ignore a NaN, which must not pass for small.
+      if (.not. abs(at%error(i)) <= huge(violation)) violation = huge(violation)
+      ! Half a unit in the last place each, of the gaps and of the motions, and as much for their sum.
+      rounding = abs(pass%gap(k)) + reference_gap + at%rigid_magnitude(i)
+      excess = max(abs(at%error(i) - shared_error) - 2.0_dp*epsilon(excess)*rounding, 0.0_dp)
+      call raise_to(violation, excess, at%magnitude(i) + reference_magnitude)
+    end do
+  end subroutine judge_gaps
 
   !> The largest force of the body of point `k`, and what of the forces there may be `rounding`.
   pure subroutine find_force_of_body(pass, k, body_force, rounding)
@@ -442,23 +534,37 @@ contains
   subroutine sum_terms(pass, k, first, last)
     class(certificate_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
-    type(point_lengths) :: at
-    real(dp) :: extremes(4), gap, terms, upper
-    integer :: i
+    type(tile_lengths) :: at
+    real(dp) :: elastic, extremes(3), gap, terms, upper
+    integer :: i, start
+    logical :: excludes, prescribes, with_stops
 
+    excludes = allocated(pass%problem%excluded)
+    prescribes = allocated(pass%problem%prescribed)
+    with_stops = allocated(pass%problem%gap_upper)
     extremes = -huge(extremes)
     upper = -huge(upper)
     terms = 0.0_dp
-    do i = first, last
-      if (.not. abs(pass%force(i)) > pass%least_force) cycle
-      if (.not. included(pass, i)) cycle
-      at = lengths_at(pass, i)
-      gap = gap_less_motions(pass%problem, i)
-      extremes = max(extremes, [abs(gap), gap, -gap, at%elastic])
-      if (upper_stop(pass, i) < huge(upper)) upper = max(upper, upper_stop(pass, i))
-      terms = terms + abs(pass%force(i))/pass%largest_included/pass%shares*at%elastic
+    do start = first, last, TILE
+      call find_magnitudes(pass, start, min(start + TILE - 1, last), at)
+      do i = start, min(start + TILE - 1, last)
+        if (.not. abs(pass%force(i)) > pass%least_force) cycle
+        if (excludes) then
+          if (.not. included(pass, i)) cycle
+        end if
+        elastic = at%elastic(i - start + 1)
+        gap = pass%gap(i)
+        if (prescribes) gap = gap_less_motions(pass%problem, i)
+        if (gap > extremes(1)) extremes(1) = gap
+        if (-gap > extremes(2)) extremes(2) = -gap
+        if (elastic > extremes(3)) extremes(3) = elastic
+        if (with_stops) then
+          if (upper_stop(pass, i) < huge(upper)) upper = max(upper, upper_stop(pass, i))
+        end if
+        terms = terms + abs(pass%force(i))/pass%largest_included/pass%shares*elastic
+      end do
     end do
-    pass%found(:, k) = [terms, extremes, upper]
+    pass%found(:, k) = [terms, max(extremes(1), extremes(2)), extremes, upper]
   end subroutine sum_terms
 
   !> Found, (m): the largest displacement of these points by a unit of each motion; -huge where there are none.
@@ -472,7 +578,8 @@ contains
       arm = -huge(arm)
       do i = first, last
         if (.not. abs(pass%force(i)) > pass%least_force) cycle
-        if (included(pass, i)) arm = max(arm, abs(pass%problem%modes(i, j)))
+        if (.not. abs(pass%problem%modes(i, j)) > arm) cycle
+        if (included(pass, i)) arm = abs(pass%problem%modes(i, j))
       end do
       pass%found(j, k) = arm
     end do
@@ -482,20 +589,23 @@ contains
   subroutine sum_open_lengths(pass, k, first, last)
     class(certificate_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
-    type(point_lengths) :: at
+    type(tile_lengths) :: at
     type(point_law) :: law
     real(dp) :: excess, open
-    integer :: i
+    integer :: i, j, start
 
     open = 0.0_dp
-    do i = first, last
-      if (.not. included(pass, i)) cycle
-      at = lengths_at(pass, i)
-      law = pass%problem%law(i)
-      ! Elsewhere the terms of a displacement excuse rounding; here only those of R q and the datum do.
-      excess = max(abs(at%error) - 2.0_dp*epsilon(excess)*(abs(pass%gap(i)) + at%rigid_magnitude), &
-                   epsilon(excess)*at%elastic, law%stop_distance(pass%force(i), pass%gap_under_load(i)))
-      open = open + abs(pass%force(i))/pass%largest_included/pass%shares*excess
+    do start = first, last, TILE
+      call find_lengths(pass, start, min(start + TILE - 1, last), at)
+      do i = start, min(start + TILE - 1, last)
+        if (.not. included(pass, i)) cycle
+        j = i - start + 1
+        law = pass%problem%law(i)
+        ! Elsewhere the terms of a displacement excuse rounding; here only those of R q and the datum do.
+        excess = max(abs(at%error(j)) - 2.0_dp*epsilon(excess)*(abs(pass%gap(i)) + at%rigid_magnitude(j)), &
+                     epsilon(excess)*at%elastic(j), law%stop_distance(pass%force(i), pass%gap_under_load(i)))
+        open = open + abs(pass%force(i))/pass%largest_included/pass%shares*excess
+      end do
     end do
     pass%found(1, k) = open
   end subroutine sum_open_lengths

@@ -72,9 +72,8 @@ contains
     pass%modes => problem%modes
     pass%force => solution%force
     call pass%run(size(solution%force), 4*m)
-    sums = [(pass%total(j), j=1, 2*m)]
+    call pass%take(2*m + 1, sums, most)
     call space%add(sums)
-    most = [(pass%largest(j), j=2*m + 1, 4*m)]
     call space%raise(most)
     spring_force = largest_spring_force(problem, solution%motion, most(:m))
     call find_extremes_of_bodies(problem, most(m + 1:), of_bodies(:m), of_bodies(m + 1:))
@@ -108,10 +107,11 @@ contains
       force = 0.0_dp
       do i = first, last
         if (.not. abs(self%modes(i, j)) > 0.0_dp) cycle
+        if (abs(self%modes(i, j)) > arm) arm = abs(self%modes(i, j))
+        if (.not. abs(self%force(i)) > 0.0_dp) cycle
+        if (abs(self%force(i)) > force) force = abs(self%force(i))
         term = self%modes(i, j)*self%force(i)
         sums = sums + [term, abs(term)]
-        arm = max(arm, abs(self%modes(i, j)))
-        force = max(force, abs(self%force(i)))
       end do
       self%found([j, m + j, 2*m + j, 3*m + j], k) = [sums, arm, force]
     end do
