@@ -1,7 +1,7 @@
 !> Products with an operator and with its preconditioner, counted and checked. The iterative
 !> engine and the certificate form theirs here, so that a failure has one message everywhere.
 module fuge_operator_products
-  use fuge_input_checks, only: check_finite, is_finite_everywhere
+  use fuge_input_checks, only: check_finite, is_finite_in_chunks
   use fuge_kinds, only: dp, sp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
@@ -64,7 +64,7 @@ contains
   end subroutine multiply_with_magnitude
 
   !> Count a product and report what is wrong with it.
-  pure subroutine judge_product(force, displacement, status, info)
+  subroutine judge_product(force, displacement, status, info)
     real(dp), intent(in) :: force(:)
     real(dp), intent(in), contiguous :: displacement(:)
     integer, intent(in) :: status
@@ -73,7 +73,7 @@ contains
     info%products = info%products + 1
     if (status /= FUGE_DONE) then
       call report_status(status, 'product', info%products, info)
-    else if (.not. is_finite_everywhere(displacement)) then
+    else if (.not. is_finite_in_chunks(displacement)) then
       call report_not_finite(force, 'force', displacement, 'displacement', 'product', info%products, info)
     end if
   end subroutine judge_product
@@ -94,7 +94,7 @@ contains
     info%preconditionings = info%preconditionings + 1
     if (status /= FUGE_DONE) then
       call report_status(status, 'preconditioner', info%preconditionings, info)
-    else if (.not. is_finite_everywhere(force)) then
+    else if (.not. is_finite_in_chunks(force)) then
       call report_not_finite(displacement, 'displacement', force, 'force', 'preconditioner', info%preconditionings, &
                              info)
     end if

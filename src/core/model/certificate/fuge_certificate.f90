@@ -124,7 +124,8 @@ contains
     type(point_space) :: space
     real(dp), allocatable, target :: error(:), lengths(:, :)
     real(dp) :: forces(3), none(0), sums(2), units(2)
-    integer :: stat
+    integer :: columns, stat
+    logical :: common
 
     space = operator%ranks()
     call pass%point_to(problem, solution)
@@ -132,8 +133,11 @@ contains
     ! Violations stay huge: a product with NaN would show nothing.
     if (space%anywhere(pass%largest(3) > 0.0_dp)) return
     call take_forces(pass, space, forces)
-    ! One array, because small problems spend much of their time on allocations. What all points share needs none.
-    allocate (lengths(size(solution%force), columns_needed(operator, problem)), stat=stat)
+    ! Kept of each point: its displacement; R q and the terms of it, where there are modes; the terms of the displacement
+    ! where they differ from point to point. One array, because small problems spend much of their time on allocations.
+    common = operator%common_magnitude(0.0_dp, 0.0_dp) >= 0.0_dp
+    columns = merge(1, 3, .not. allocated(problem%modes)) + merge(0, 1, common)
+    allocate (lengths(size(solution%force), columns), stat=stat)
     call require_memory(stat, 'the certificate of', size(solution%force), 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
@@ -142,7 +146,7 @@ contains
       pass%rigid => lengths(:, 2)
       pass%rigid_magnitude => lengths(:, 3)
     end if
-    if (.not. has_common_magnitude(operator)) pass%terms => lengths(:, size(lengths, 2))
+    if (.not. common) pass%terms => lengths(:, columns)
 
     call find_displacements(operator, forces, pass, units, info)
     if (info%failed()) return
@@ -180,26 +184,6 @@ contains
     ! Forces that push with one load between them do not dwarf it.
     pass%with_shares = pass%largest_included > 0.0_dp .and. .not. pass%problem%is_plain()
   end subroutine take_forces
-
-  !> Do all points have the same size of the terms of their displacements?
-  function has_common_magnitude(operator) result(common)
-    class(fuge_operator), intent(in) :: operator
-    logical :: common
-
-    common = operator%common_magnitude(0.0_dp, 0.0_dp) >= 0.0_dp
-  end function has_common_magnitude
-
-  !> How many numbers have to be kept of each point: its displacement; R q and the terms of it where there are modes;
-  !> the terms of the displacement where they differ from point to point.
-  function columns_needed(operator, problem) result(columns)
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    integer :: columns
-
-    columns = 1
-    if (allocated(problem%modes)) columns = columns + 2
-    if (.not. has_common_magnitude(operator)) columns = columns + 1
-  end function columns_needed
 
   !> The displacements by the `forces`, as from `take_forces`, the terms of them, and the units in which works are
   !> summed. Errors: those of the product.
