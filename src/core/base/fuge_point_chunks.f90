@@ -52,10 +52,16 @@ contains
 
     self%points = points
     chunks = chunk_count(points)
-    if (allocated(self%found)) deallocate (self%found)
-    allocate (self%found(results, chunks))
+    if (allocated(self%found)) then
+      if (size(self%found, 1) /= results .or. size(self%found, 2) /= chunks) deallocate (self%found)
+    end if
+    if (.not. allocated(self%found)) allocate (self%found(results, chunks))
     self%found = 0.0_dp
-    call run_in_parts(min(chunks, threads_here()), self)
+    if (chunks == 1) then
+      call self%do_chunk(1, 1, points)
+    else
+      call run_in_parts(min(chunks, threads_here()), self)
+    end if
   end subroutine run
 
   !> Every so manieth chunk, so that all threads have points everywhere.
