@@ -1,4 +1,5 @@
-! The ranks of MPI_COMM_WORLD find the solution of one process: the same contact set, the same forces, the same counts.
+! The ranks of MPI_COMM_WORLD find the solution of one process: the same contact set, and the same forces and counts, or on areas
+! nearly the same: there one process has products in single precision.
 program same_answer
   use fuge, dp => fuge_dp
   use fuge_mpi, only: fuge_mpi_halfspace_operator
@@ -105,6 +106,11 @@ contains
       allocate (whole_problem%gap(nx*ny))
       call fill_gap(nx, ny, 1, ny, curvature, whole_problem%gap)
       whole_problem%resultant = [load]
+    end if
+    ! One process has products in single precision where there are rows and columns.
+    if (min(nx, ny) > 1) then
+      call check_solves(name, 1.0e-8_dp, 8, solves, shared, whole, problem, whole_problem)
+      return
     end if
     call check_solves(name, 1.0e-12_dp, 0, solves, shared, whole, problem, whole_problem)
   end subroutine compare

@@ -18,13 +18,13 @@ module fuge_single_grid_convolution
 
   include 'fuge_grid_convolution.inc'
 
-  !> The kernel `double`, which is set, rounded. `status` is not 0 where memory is short, or where its numbers are out of
-  !> the range of single precision.
+  !> The kernel `double`, which is set, rounded. `status` is not 0 where memory is short, or where its numbers are out
+  !> of the range of single precision.
   subroutine round_kernel(double, single, status)
     type(double_kernel), intent(in) :: double
     type(grid_kernel), intent(inout) :: single
     integer, intent(out) :: status
-    real(dp) :: largest
+    real(dp) :: factor, largest
     integer :: k
 
     largest = maxval(abs(double%spectrum))
@@ -32,12 +32,13 @@ module fuge_single_grid_convolution
     if (status /= 0) return
     single%padded = double%padded
     single%unit = real(scale(1.0_dp, exponent(largest)), wp)
+    factor = scale(1.0_dp, -exponent(largest))
     if (allocated(single%spectrum)) deallocate (single%spectrum)
     allocate (single%spectrum(lbound(double%spectrum, 1):ubound(double%spectrum, 1), &
                               lbound(double%spectrum, 2):ubound(double%spectrum, 2)), stat=status)
     if (status /= 0) return
     do k = lbound(double%spectrum, 2), ubound(double%spectrum, 2)
-      single%spectrum(:, k) = real(scale(double%spectrum(:, k), -exponent(largest)), wp)
+      single%spectrum(:, k) = real(factor*double%spectrum(:, k), wp)
     end do
   end subroutine round_kernel
 

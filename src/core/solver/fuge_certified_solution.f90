@@ -14,8 +14,9 @@ module fuge_certified_solution
 
   public :: certify
 
-  !> Above this estimate of the relative error of the forces, a solution comes with a warning.
-  real(dp), parameter :: MOST_FORCE_ERROR = 1.0e-3_dp
+  !> Above this estimate of the relative error of the forces, and above this multiple of the tolerance, a solution comes
+  !> with a warning: a loose tolerance allows errors of the forces.
+  real(dp), parameter :: MOST_FORCE_ERROR = 1.0e-3_dp, MOST_OF_TOLERANCE = 1.0e3_dp
 
   !> A pass over the forces. Found: the number of those that are not zero.
   type, extends(chunked_pass) :: contact_count
@@ -50,7 +51,8 @@ contains
     else if (info%residual > tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' is above the tolerance ' &
                   //text(tolerance)//': the operator may be too badly conditioned for double precision')
-    else if (info%status == FUGE_DONE .and. info%force_error > MOST_FORCE_ERROR) then
+    else if (info%status == FUGE_DONE &
+             .and. info%force_error > max(MOST_FORCE_ERROR, MOST_OF_TOLERANCE*tolerance)) then
       call report(info, FUGE_WARN_ILL_CONDITIONED, 'the forces may be wrong by '//text(info%force_error)//' of the ' &
                   //'largest one although the equations hold to '//text(info%residual)//': merge points that nearly ' &
                   //'coincide, count tilts from a nearer point, or lower the tolerance of an iteration')

@@ -62,7 +62,7 @@ contains
   !> the residual in the message; FUGE_WARN_NOT_UNIQUE where alpha is singular on the points that touch, with or without
   !> force (the forces are then one of many possible), or the contact does not resist a mode (its motion is then one of
   !> many possible), or both; FUGE_WARN_ILL_CONDITIONED if info%force_error, the estimated error of the forces, is above
-  !> 1e-3. Or it is an error that leaves `solution` untouched:
+  !> 1e-3 and a thousand times the tolerance. Or it is an error that leaves `solution` untouched:
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE,
   !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,
   !> FUGE_ERR_CANCELLED. The next solve is possible after any of them.

@@ -95,8 +95,9 @@ static fuge_solver *solver_of(const fuge_operator *op, const double *gap) {
   return solver;
 }
 
-/* The same status, the same counts, and every bit of the forces. */
-static void check_same(int n, fuge_solver *first, fuge_solver *second) {
+/* The same status, and with the accuracy 0 the same counts and every bit of the forces.  Areas of the library have
+ * products in single precision, which a callback has not: their forces are the same to the tolerance. */
+static void check_same(int n, double accuracy, fuge_solver *first, fuge_solver *second) {
   double *force = malloc(n * sizeof *force), *expected = malloc(n * sizeof *force), motion[2], expected_motion[2];
   fuge_info info, expected_info;
   char message[FUGE_MESSAGE_LENGTH + 1], expected_message[FUGE_MESSAGE_LENGTH + 1];
@@ -104,16 +105,19 @@ static void check_same(int n, fuge_solver *first, fuge_solver *second) {
   CHECK_STATUS(fuge_solve(first), status);
   CHECK_DONE(fuge_get_info(first, &info));
   CHECK_DONE(fuge_get_info(second, &expected_info));
-  CHECK_INT(info.products, expected_info.products);
-  CHECK_INT(info.preconditionings, expected_info.preconditionings);
-  CHECK_INT(info.iterations, expected_info.iterations);
+  const int counts = accuracy > 0.0 ? 8 : 0;
+  CHECK(abs(info.products - expected_info.products) <= counts);
+  CHECK(abs(info.preconditionings - expected_info.preconditionings) <= counts);
+  CHECK(abs(info.iterations - expected_info.iterations) <= counts);
   if (status >= 0) {
     CHECK_DONE(fuge_get_motion(first, motion));
     CHECK_DONE(fuge_get_motion(second, expected_motion));
-    CHECK_NEAR(motion[0], expected_motion[0], 0.0);
+    CHECK_NEAR(motion[0], expected_motion[0], accuracy * fabs(expected_motion[0]));
     CHECK_DONE(fuge_get_force(first, force));
     CHECK_DONE(fuge_get_force(second, expected));
-    CHECK(memcmp(force, expected, n * sizeof *force) == 0);
+    double largest = 0.0;
+    for (int k = 0; k < n; k++) largest = fmax(largest, fabs(expected[k]));
+    for (int k = 0; k < n; k++) CHECK(fabs(force[k] - expected[k]) <= accuracy * largest);
   } else {
     CHECK_DONE(fuge_solver_message(first, message, sizeof message));
     CHECK_DONE(fuge_solver_message(second, expected_message, sizeof expected_message));
@@ -124,20 +128,20 @@ static void check_same(int n, fuge_solver *first, fuge_solver *second) {
 }
 
 /* A load; one percent more, from the forces of the first; and the approach of that, from nothing. */
-static void compare(surface *s, int n, const double *gap, double load) {
+static void compare(surface *s, int n, const double *gap, double load, double accuracy) {
   fuge_solver *first = solver_of(s->op[0], gap), *second = solver_of(s->same[0], gap);
   double approach;
   for (int step = 0; step < 2; step++) {
     CHECK_DONE(fuge_set_load(first, load * (1.0 + 0.01 * step)));
     CHECK_DONE(fuge_set_load(second, load * (1.0 + 0.01 * step)));
-    check_same(n, first, second);
+    check_same(n, accuracy, first, second);
   }
   CHECK_DONE(fuge_get_motion(second, &approach));
   CHECK_DONE(fuge_reset(first));
   CHECK_DONE(fuge_reset(second));
   CHECK_DONE(fuge_set_approach(first, approach));
   CHECK_DONE(fuge_set_approach(second, approach));
-  check_same(n, first, second);
+  check_same(n, accuracy, first, second);
   fuge_solver_free(&first);
   fuge_solver_free(&second);
 }
@@ -149,7 +153,7 @@ static void compare_loads(surface *s, grid g, double width, double first, double
   for (int wavy = 0; wavy < 2; wavy++)
     for (double load = first; load < last; load *= 100.0) {
       make_gap(g.nx, rows(g.ny), width, 1e-3 * wavy, gap);
-      compare(s, n, gap, load);
+      compare(s, n, gap, load, rows(g.ny) > 1 && g.nx > 1 ? 1e-8 : 0.0);
     }
   free(gap);
 }
@@ -198,7 +202,7 @@ static void compare_general(surface *s, grid g, double width) {
     CHECK_DONE(fuge_set_excluded(solver[k], excluded));
     CHECK_DONE(fuge_set_modes(solver[k], 2, modes, resultant));
   }
-  check_same(n, solver[0], solver[1]);
+  check_same(n, 0.0, solver[0], solver[1]);
   CHECK_DONE(fuge_get_force(solver[0], slope));
   CHECK_DONE(fuge_get_derivatives(solver[0], NULL, change, slope, NULL, NULL));
   CHECK_DONE(fuge_get_derivatives(solver[1], NULL, change, expected, NULL, NULL));
@@ -237,7 +241,7 @@ static void test_window(void) {
   fuge_solver *first = solver_of(s.op[0], gap), *second = solver_of(s.same[0], gap);
   CHECK_DONE(fuge_set_load(first, 1e-4));
   CHECK_DONE(fuge_set_load(second, 1e-4));
-  check_same(WIDE * WIDE, first, second);
+  check_same(WIDE * WIDE, 1e-8, first, second);
   CHECK_DONE(fuge_get_info(first, &info));
   CHECK(info.products <= MOST);
   fuge_solver_free(&first);

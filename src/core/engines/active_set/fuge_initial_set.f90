@@ -17,6 +17,8 @@ module fuge_initial_set
 
   !> At most this many iterations are made; one costs about as much as a few percent of a factorisation.
   integer, parameter :: MOST_ITERATIONS = 16
+  !> Lengths beyond this, the largest data being about 1, are no guess any more, and their squares would overflow.
+  real(dp), parameter :: DIVERGED = 1.0e100_dp
   !> The set has converged when fewer than 1/SETTLED of the contact points change, and no more than FEW_CHANGES, QUIET
   !> times in a row: once is not enough on graded grids. Another set costs some products.
   integer, parameter :: SETTLED = 64, FEW_CHANGES = 3, QUIET = 2
@@ -313,12 +315,13 @@ contains
     type(descent), intent(inout) :: now
     logical, intent(out) :: gains
     integer, intent(inout) :: products
-    real(dp) :: curvature, conjugacy, squares, step
+    real(dp) :: curvature, conjugacy, largest, squares, step
     integer :: n
 
     n = size(now%slope)
     gains = .false.
-    if (largest_of(now%slope) <= ROUNDING*largest_of(now%gap)) return
+    largest = largest_of(now%slope)
+    if (largest <= ROUNDING*largest_of(now%gap) .or. largest > DIVERGED) return
     squares = ddot(n, now%slope, 1, now%slope, 1)
     if (.not. squares > 0.0_dp) return
     conjugacy = 0.0_dp

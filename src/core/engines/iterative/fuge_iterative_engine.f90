@@ -7,7 +7,7 @@ module fuge_iterative_engine
   use fuge_canonical_problem, only: canonical_problem
   use fuge_complete_contact, only: equal_forces_displace_nothing
   use fuge_constants, only: LARGEST_EXPONENT
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap, evaluate_iterate, start_iterate
+  use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, start_iterate
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_set_search, only: find_contact_set, find_states
   use fuge_contact_states, only: FUGE_OPEN
@@ -27,12 +27,12 @@ module fuge_iterative_engine
   use fuge_point_space, only: point_space
   use fuge_repeated_points, only: find_repeated_points
   use fuge_scene_scaling, only: scene_scaling
+  use fuge_simple_scene, only: assemble_simple, set_simple_scene
   use fuge_probed_compliance, only: probe_compliance
   use fuge_search_settings, only: search_settings
   use fuge_shared_rows, only: rows_of
   use fuge_shared_transfer, only: prolong_to
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
-    FUGE_WARN_NOT_UNIQUE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_NOT_UNIQUE
   use fuge_warm_start, only: load_history
   use fuge_wrong_points, only: choose_contact
   implicit none
@@ -40,8 +40,7 @@ module fuge_iterative_engine
 
   public :: is_general, solve_by_iteration
 
-  !> Forces up to this many units in the last place of the largest force are rounding, and so is a mean
-  !> gap up to as many of the largest gap.
+  !> A mean gap up to this many units in the last place of the largest gap is rounding.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
 
 contains
@@ -270,21 +269,6 @@ contains
     iterate%converged = .false.
   end subroutine discard
 
-  !> The scene of a problem with one translation, free or prescribed, and one-sided contact at all points; its rows are
-  !> set. Errors: FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
-  subroutine set_simple_scene(problem, scene, scaling, info)
-    type(fuge_problem), intent(in) :: problem
-    type(contact_scene), intent(inout) :: scene
-    type(scene_scaling), intent(out) :: scaling
-    type(fuge_info), intent(inout) :: info
-
-    scene%prescribed = .not. problem%is_plain()
-    call choose_scaling(problem, scene%rows%point_space, scaling)
-    call check_range(problem, scene%rows%point_space, info)
-    if (.not. info%failed()) call reduce_gap(problem%gap, scaling, scene%gap, info)
-    call scene%rows%agree(info)
-  end subroutine set_simple_scene
-
   !> Start `iterate` by coarser grids, and where the contact is small by a window of the finest one; where the operator
   !> has neither, from what start_iterate chooses. Errors: those of nested_iteration.
   subroutine start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, iterate, info)
@@ -317,66 +301,6 @@ contains
     if (.not. info%failed()) call start_iterate(iterate, scene, start, info)
   end subroutine start_on_coarser_grids
 
-  !> The scaling of the iteration: gaps less the prescribed motion, or else less the least gap; forces and lengths over
-  !> the load, or over 1 for a prescribed motion.
-  subroutine choose_scaling(problem, space, scaling)
-    type(fuge_problem), intent(in) :: problem
-    type(point_space), intent(in) :: space
-    type(scene_scaling), intent(out) :: scaling
-
-    if (problem%is_plain()) then
-      scaling%gap_datum = space%least(minval(problem%gap))
-      scaling%load = problem%resultant(1)
-    else
-      scaling%gap_datum = problem%motion(1)
-    end if
-  end subroutine choose_scaling
-
-  !> reduced_gap = (gap - gap_datum)/load, both gaps (n). Error: FUGE_ERR_MEMORY.
-  pure subroutine reduce_gap(gap, scaling, reduced_gap, info)
-    real(dp), intent(in) :: gap(:)
-    type(scene_scaling), intent(in) :: scaling
-    real(dp), allocatable, intent(out) :: reduced_gap(:)
-    type(fuge_info), intent(inout) :: info
-    integer :: stat
-
-    allocate (reduced_gap(size(gap)), stat=stat)
-    call require_memory(stat, 'the gaps of', size(gap), 'points', info)
-    if (stat == 0) reduced_gap = (gap - scaling%gap_datum)/scaling%load
-  end subroutine reduce_gap
-
-  !> Forces, gaps and motion in the units of the problem. Error: FUGE_ERR_MEMORY.
-  subroutine assemble_simple(operator, scene, scaling, iterate, solution, info)
-    class(fuge_operator), intent(in) :: operator
-    type(contact_scene), intent(in) :: scene
-    type(scene_scaling), intent(in) :: scaling
-    type(contact_iterate), intent(inout) :: iterate
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: force(:), gap(:), motion(:)
-    real(dp) :: largest
-    integer :: n, stat
-
-    n = size(scene%gap)
-    allocate (force(n), gap(n), motion(1), stat=stat)
-    call require_memory(stat, 'the forces and gaps of', n, 'points', info)
-    call scene%rows%agree(info)
-    if (stat /= 0 .or. info%failed()) return
-    largest = scene%rows%largest(maxval(iterate%force))
-    where (iterate%force <= ROUNDINGS*epsilon(1.0_dp)*largest) iterate%force = 0.0_dp
-    force = scaling%load*iterate%force
-    gap = scaling%load*max(deformed_gap(scene%gap, iterate%displacement, iterate%motion), 0.0_dp)
-    where (iterate%contact) gap = 0.0_dp
-    motion = scaling%gap_datum
-    if (.not. iterate%prescribed) then
-      motion = (scaling%load*iterate%motion + operator%datum()*scene%rows%total(sum(force))) &
-               + scaling%gap_datum
-    end if
-    call move_alloc(force, solution%force)
-    call move_alloc(gap, solution%gap)
-    call move_alloc(motion, solution%motion)
-  end subroutine assemble_simple
-
   !> Refuse prescribed motions at which the mean gap is closed, or open by no more than the rounding of the
   !> gaps, where equal forces displace nothing, as on a periodic surface: no forces resist it, or
   !> any equal ones do. Errors: FUGE_ERR_NO_EQUILIBRIUM, those of equal_forces_displace_nothing.
@@ -405,29 +329,5 @@ contains
                   //'less than '//text(problem%motion(1) + mean)//', or a load')
     end if
   end subroutine check_approach
-
-  !> Refuse gaps so large that their squares overflow, after division by the load if there is one.
-  !> Error: FUGE_ERR_OVERFLOW.
-  subroutine check_range(problem, space, info)
-    type(fuge_problem), intent(in) :: problem
-    type(point_space), intent(in) :: space
-    type(fuge_info), intent(inout) :: info
-    integer :: excess
-
-    if (.not. problem%is_plain()) then
-      excess = exponent(space%largest(maxval(abs(problem%gap - problem%motion(1)))))
-    else
-      excess = exponent(space%largest(maxval(problem%gap)) - space%least(minval(problem%gap))) &
-               - exponent(problem%resultant(1))
-    end if
-    if (2*excess <= LARGEST_EXPONENT) return
-    if (problem%is_plain()) then
-      call report(info, FUGE_ERR_OVERFLOW, 'the gaps are 2**'//text(excess)//' times the load: choose units in which ' &
-                  //'they are nearer to it')
-    else
-      call report(info, FUGE_ERR_OVERFLOW, 'the gaps differ by 2**'//text(excess)//' from the prescribed approach: ' &
-                  //'choose units in which lengths are nearer to 1')
-    end if
-  end subroutine check_range
 
 end module fuge_iterative_engine

@@ -3,7 +3,6 @@
 !> Loops over the segments visit no open point and have no branch inside. Where ranks share the points, each has the
 !> segments of its own, and sums and maxima are those over the segments of all ranks.
 module fuge_contact_segments
-  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use fuge_kinds, only: dp
   use fuge_point_chunks, only: chunk_count, chunked_pass
   use fuge_point_space, only: point_space
@@ -53,7 +52,7 @@ contains
     if (allocated(self%before)) deallocate (self%before)
     allocate (self%before(chunks + 1), stat=stat)
     if (stat == 0) then
-      call c_f_pointer(c_loc(contact), pass%contact, shape(contact))
+      pass%contact => contact
       call pass%run(size(contact), 2)
       self%before(1) = 0
       do k = 1, chunks

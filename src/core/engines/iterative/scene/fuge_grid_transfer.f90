@@ -5,12 +5,33 @@
 !> On an area open cells stay open: the linear interpolation would add a rim of cells to every contact,
 !> on a rough surface half as many cells as are in contact.
 module fuge_grid_transfer
+  use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, require_memory
+  use fuge_threads, only: run_in_parts, share, threads_here, work_in_parts
   implicit none
   private
 
   public :: coarser_cells, interpolate_columns, interpolate_rows, open_cells, prolong, restrict
+
+  !> Fewer cells are done by one thread: waking others would take as long.
+  integer, parameter :: FEWEST_FOR_THREADS = 16384
+
+  !> Means of the cells of a finer grid, shared by rows of the coarser one.
+  type, extends(work_in_parts) :: restriction
+    integer :: cells(2) = 0, coarser(2) = 0, width = 1
+    real(dp), pointer, contiguous :: values(:) => null(), coarse(:) => null()
+  contains
+    procedure :: do_part => restrict_part
+  end type restriction
+
+  !> Forces on a finer grid, shared by its rows.
+  type, extends(work_in_parts) :: prolongation
+    integer :: cells(2) = 0, coarse(2) = 0
+    real(dp), pointer, contiguous :: force(:) => null(), fine(:) => null()
+  contains
+    procedure :: do_part => prolong_part
+  end type prolongation
 
 contains
 
@@ -28,26 +49,60 @@ contains
   !> A coarse cell stands for two fine cells in each direction, the last one for a single cell if their
   !> number is odd. For even numbers the sum of the forces is conserved; forces linear along the grid
   !> are prolonged exactly but for the first and last cells.
-  pure subroutine prolong(cells, force, info)
+  subroutine prolong(cells, force, info)
     integer, intent(in) :: cells(2)
-    real(dp), allocatable, intent(inout) :: force(:)
+    real(dp), allocatable, intent(inout), target :: force(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: wide(:), fine(:)
-    integer :: coarse(2), stat
+    real(dp), allocatable, target :: fine(:)
+    type(prolongation) :: work
+    integer :: stat
 
-    coarse = coarser_cells(cells, 1)
-    if (size(force) /= product(coarse)) then
+    work%cells = cells
+    work%coarse = coarser_cells(cells, 1)
+    if (size(force) /= product(work%coarse)) then
       deallocate (force)
       return
     end if
-    allocate (wide(cells(1)*coarse(2)), fine(product(cells)), stat=stat)
+    allocate (fine(product(cells)), stat=stat)
     call require_memory(stat, 'the starting forces on', product(cells), 'points', info)
     if (stat /= 0) return
-    call interpolate_rows(coarse(1), cells(1), coarse(2), force, wide)
-    call interpolate_columns(cells(1), coarse(2), cells(2), 1, coarse(2), [1, cells(2)], wide, fine)
-    if (all(cells > 1)) call open_cells(coarse(1), cells(1), 1, coarse(2), [1, cells(2)], force, fine)
+    work%force => force
+    work%fine => fine
+    call run_in_parts(threads_for(cells), work)
     call move_alloc(fine, force)
   end subroutine prolong
+
+  !> How many parts a transfer to or from a grid of `cells` has.
+  function threads_for(cells) result(parts)
+    integer, intent(in) :: cells(2)
+    integer :: parts
+
+    parts = 1
+    if (product(cells) >= FEWEST_FOR_THREADS) parts = min(threads_here(), (cells(2) + 1)/2)
+  end function threads_for
+
+  !> Two rows after the other, from the coarse rows about them.
+  subroutine prolong_part(self, part, parts)
+    class(prolongation), intent(inout) :: self
+    integer, intent(in) :: part, parts
+    real(dp) :: wide(self%cells(1), 3)
+    integer :: after, begin, first, last, near, j, rows(2)
+
+    call share(self%coarse(2), part, parts, first, last)
+    do j = first + 1, last + 1
+      near = max(j - 1, 1)
+      after = min(j + 1, self%coarse(2))
+      begin = self%coarse(1)*(near - 1)
+      rows = [2*j - 1, min(2*j, self%cells(2))]
+      if (self%coarse(2) == self%cells(2)) rows = [j, j]
+      associate (coarse => self%force(begin + 1:self%coarse(1)*after), &
+                 fine => self%fine(self%cells(1)*(rows(1) - 1) + 1:self%cells(1)*rows(2)))
+        call interpolate_rows(self%coarse(1), self%cells(1), after - near + 1, coarse, wide)
+        call interpolate_columns(self%cells(1), self%coarse(2), self%cells(2), near, after, rows, wide, fine)
+        if (all(self%cells > 1)) call open_cells(self%coarse(1), self%cells(1), near, after, rows, coarse, fine)
+      end associate
+    end do
+  end subroutine prolong_part
 
   !> Linear interpolation along x between the centres of the coarse cells; each coarse cell carries the
   !> forces of two fine cells. `coarse` (m, rows), `fine` (n, rows).
@@ -110,18 +165,37 @@ contains
 
   !> Restrict `values` of a grid of `cells` in each direction to one whose cells are 2**level times as
   !> wide (the last ones may be narrower): `coarse` are the means over its cells. Error: FUGE_ERR_MEMORY.
-  pure subroutine restrict(values, cells, level, coarse, info)
-    real(dp), intent(in) :: values(:)
+  subroutine restrict(values, cells, level, coarse, info)
+    real(dp), intent(in), contiguous, target :: values(:)
     integer, intent(in) :: cells(2), level
-    real(dp), allocatable, intent(out) :: coarse(:)
+    real(dp), allocatable, intent(out), target :: coarse(:)
     type(fuge_info), intent(inout) :: info
-    integer :: coarser(2), stat
+    type(restriction) :: work
+    integer :: stat
 
-    coarser = coarser_cells(cells, level)
-    allocate (coarse(product(coarser)), stat=stat)
-    call require_memory(stat, 'the gaps of', product(coarser), 'cells', info)
-    if (stat == 0) call average_cells(cells, coarser, 2**level, values, coarse)
+    work%cells = cells
+    work%coarser = coarser_cells(cells, level)
+    work%width = 2**level
+    allocate (coarse(product(work%coarser)), stat=stat)
+    call require_memory(stat, 'the gaps of', product(work%coarser), 'cells', info)
+    if (stat /= 0) return
+    call c_f_pointer(c_loc(values), work%values, shape(values))
+    work%coarse => coarse
+    call run_in_parts(min(threads_for(cells), work%coarser(2)), work)
   end subroutine restrict
+
+  subroutine restrict_part(self, part, parts)
+    class(restriction), intent(inout) :: self
+    integer, intent(in) :: part, parts
+    integer :: first, last, rows(2)
+
+    call share(self%coarser(2), part, parts, first, last)
+    if (last < first) return
+    rows = [first*self%width + 1, min((last + 1)*self%width, self%cells(2))]
+    call average_cells([self%cells(1), rows(2) - rows(1) + 1], [self%coarser(1), last - first + 1], self%width, &
+                       self%values(self%cells(1)*(rows(1) - 1) + 1:self%cells(1)*rows(2)), &
+                       self%coarse(self%coarser(1)*first + 1:self%coarser(1)*(last + 1)))
+  end subroutine restrict_part
 
   !> Means of `fine` (nx, ny) over blocks of `width` x `width` cells.
   pure subroutine average_cells(cells, coarser, width, fine, coarse)

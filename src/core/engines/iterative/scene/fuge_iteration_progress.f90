@@ -13,7 +13,8 @@ module fuge_iteration_progress
 contains
 
   !> Tell the monitor the number of the iteration, info%iterations, how large the residual of `iterate` is relative to
-  !> its lengths, and the size of its contact set. Error: FUGE_ERR_CANCELLED, on all ranks if one of them cancels.
+  !> its lengths, and the size of the contact set that it was evaluated for. Error: FUGE_ERR_CANCELLED, on all ranks if
+  !> one of them cancels.
   subroutine tell_progress(scene, iterate, monitor, info)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
@@ -26,7 +27,7 @@ contains
     if (iterate%residual_norm > 0.0_dp) then
       relative = iterate%residual_norm/max(iterate%least_magnitude, iterate%residual_norm)
     end if
-    contacts = scene%rows%total_count(count(iterate%contact))
+    contacts = iterate%segments%points
     call tell_monitor(monitor, info%iterations, relative, contacts, status)
     if (status /= FUGE_DONE) call report(info, status, fuge_status_text(status))
     call scene%rows%agree(info)

@@ -13,26 +13,28 @@ module fuge_single_gradients
   use fuge_operator_type, only: fuge_operator
   use fuge_single_passes, only: point_pass, step_all, sum_curvature, turn_direction
   use fuge_single_preconditioner, only: single_preconditioner
-  use fuge_single_state, only: refresh, single_state, SINGLE_ERROR
+  use fuge_single_state, only: refresh, restore_sum, single_state, SINGLE_ERROR
   use fuge_status, only: fuge_info
   implicit none
   private
 
-  public :: run_single_gradients
+  public :: estimate_compliance, run_single_gradients
 
   !> As in fuge_projected_gradients.
   real(dp), parameter :: DECISIVE = 0.2_dp, NEARLY = 100.0_dp
   !> Residuals below the first multiple of the errors of the distances are replaced, unless these are below the second
   !> fraction of what is allowed.
   real(dp), parameter :: REPLACED = 100.0_dp, NEGLIGIBLE = 0.1_dp
-  !> Steps at most.
+  !> Steps and replacements at most.
   integer, parameter :: LIMIT = 1000
+  !> The least eigenvalue of a preconditioned system of which no step has told one.
+  real(dp), parameter :: TYPICAL_EIGENVALUE = 0.3_dp
 
 contains
 
   !> Iterate towards forces for which the gaps of the contact set are equal, as run_projected_gradients does; the
-  !> iterate is evaluated. `lost`: rounding has taken over, and another method has to go on. Errors: those of the
-  !> operator, FUGE_ERR_MEMORY.
+  !> iterate is evaluated. `lost`: rounding has taken over, and another method has to go on. The arguments are nine,
+  !> those of run_projected_gradients, the state and `lost`. Errors: those of the operator, FUGE_ERR_MEMORY.
   subroutine run_single_gradients(operator, preconditioner, scene, tolerance, to_tolerance, state, iterate, lost, info)
     class(fuge_operator), intent(in) :: operator
     type(single_preconditioner), intent(in) :: preconditioner
@@ -45,22 +47,24 @@ contains
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
     real(dp) :: energy, factor, largest, previous, step_length
-    integer :: iteration
+    integer :: iteration, steps
 
     lost = .false.
     iterate%converged = .false.
     call iterate%lanczos%restart()
     previous = 1.0_dp
+    steps = 0
     do iteration = 0, LIMIT
       if (iterate%residual_norm < REPLACED*state%drift .and. &
           state%drift > NEGLIGIBLE*tolerance*iterate%least_magnitude) then
+        call restore_sum(scene, state, iterate)
         call refresh(operator, scene, .false., state, iterate, info)
         if (info%failed()) return
         cycle
       end if
       iterate%converged = is_accurate(iterate, tolerance)
       if (iterate%converged) return
-      if (iteration > 0 .and. .not. to_tolerance) then
+      if (steps > 0 .and. .not. to_tolerance) then
         if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
       end if
       call preconditioner%apply(operator, scene, state, iterate, factor, energy, info)
@@ -68,13 +72,13 @@ contains
       if (lost .or. info%failed()) return
       call state%point_to(scene, iterate, pass)
       pass%factor = factor
-      pass%ratio = merge(0.0_dp, energy/previous, iteration == 0)
+      pass%ratio = merge(0.0_dp, energy/previous, steps == 0)
       call pass%go(turn_direction, 1)
       largest = pass%largest(1)
-      if (iteration == 0 .or. is_accurate(iterate, NEARLY*tolerance)) then
+      if (steps == 0 .or. is_accurate(iterate, NEARLY*tolerance)) then
         iterate%amplification = largest/iterate%residual_norm
       end if
-      if (iteration > 0 .and. .not. to_tolerance) then
+      if (steps > 0 .and. .not. to_tolerance) then
         if (largest <= DECISIVE*state%tension) return
       end if
       call multiply_single(operator, state%direction, state%work, info)
@@ -84,9 +88,31 @@ contains
       if (lost) return
       call iterate%lanczos%add(step_length, energy/previous)
       previous = energy
+      steps = steps + 1
     end do
     lost = .true.
   end subroutine run_single_gradients
+
+  !> The least compliance where the forces to start from need no step: from the preconditioned residual, which stands
+  !> for their error. Errors: those of the operator.
+  subroutine estimate_compliance(operator, preconditioner, scene, state, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(single_preconditioner), intent(in) :: preconditioner
+    type(contact_scene), intent(in) :: scene
+    type(single_state), intent(inout) :: state
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    type(point_pass) :: pass
+    real(dp) :: energy, factor
+
+    if (.not. iterate%residual_norm > 0.0_dp) return
+    call preconditioner%apply(operator, scene, state, iterate, factor, energy, info)
+    if (info%failed()) return
+    call state%point_to(scene, iterate, pass)
+    pass%factor = factor
+    call pass%go(turn_direction, 1)
+    if (pass%largest(1) > 0.0_dp) iterate%least_compliance = TYPICAL_EIGENVALUE*iterate%residual_norm/pass%largest(1)
+  end subroutine estimate_compliance
 
   !> Go to the minimum of the energy along the search direction, whose displacements are state%work; `step_length` is 0
   !> where the curvature is not positive, or nothing but rounding.

@@ -117,8 +117,8 @@ contains
   !> The step of forces, distances and residuals in the contact; `step_length` is `factor` in double precision. `total`
   !> gains the new residuals, `largest` and `tension` rise to their magnitudes and to the tensions. The arguments are
   !> twelve, because one loop updates all that follows from the forces.
-  pure subroutine step_forces(n, step_length, factor, shift, direction, work, force, distance, residual, total, largest, &
-                              tension)
+  pure subroutine step_forces(n, step_length, factor, shift, direction, work, force, distance, residual, total, &
+                              largest, tension)
     integer, intent(in) :: n
     real(dp), intent(in) :: step_length
     real(sp), intent(in) :: factor, shift, direction(n), work(n)

@@ -13,9 +13,9 @@ module fuge_single_passes
   implicit none
   private
 
-  public :: add_moves, center_residuals, exchange_points, give_displacements, set_forces, settle_distances, &
-    start_distances, step_all, sum_curvature, sum_energy, sum_forces, sum_gaps, sum_uniform, sum_with_uniform, &
-    take_displacements, turn_direction
+  public :: add_moves, center_residuals, exchange_points, give_displacements, mark_contact, scale_forces, set_forces, &
+    settle_distances, start_distances, step_all, sum_curvature, sum_energy, sum_contact_forces, &
+    sum_forces, sum_gaps, sum_uniform, sum_with_uniform, take_displacements, turn_direction
 
   !> What the passes read and change, all (n): pointers to the arrays of one search.
   type, extends(chunked_pass), public :: point_pass
@@ -69,6 +69,26 @@ contains
     pass%found(:, k) = [sum(pass%force(first:last), mask=pass%contact(first:last)), maxval(pass%gap(first:last))]
   end subroutine sum_forces
 
+  !> Found: the sum of the forces in the contact.
+  subroutine sum_contact_forces(pass, k, first, last)
+    class(point_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    integer :: j
+
+    if (last < first) return
+    do j = pass%segments%before(k) + 1, pass%segments%before(k + 1)
+      pass%found(1, k) = pass%found(1, k) + sum(pass%force(pass%segments%first(j):pass%segments%last(j)))
+    end do
+  end subroutine sum_contact_forces
+
+  !> Multiply the forces by `factor`.
+  subroutine scale_forces(pass, k, first, last)
+    class(point_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+
+    if (k > 0) pass%force(first:last) = pass%factor*pass%force(first:last)
+  end subroutine scale_forces
+
   !> Tensile points leave the contact, points that penetrate by more than `noise` join it; distances are too large by
   !> `shift`. Found: how many did, the sum of the forces in the new contact, and its points.
   subroutine exchange_points(pass, k, first, last)
@@ -100,8 +120,8 @@ contains
     pass%found(:, k) = [real(wrong, dp), total, real(points, dp)]
   end subroutine exchange_points
 
-  !> Forces that push in the contact and are zero off it, times `factor`; `direction` is the change. With a `factor` that
-  !> is not positive all points have equal forces, `shift`, in contact.
+  !> Forces that push in the contact and are zero off it, times `factor`; `direction` is the change. With a `factor`
+  !> that is not positive all points have equal forces, `shift`, in contact.
   subroutine set_forces(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
@@ -148,8 +168,8 @@ contains
                                                 + real(pass%work(first:last), dp), sp)
   end subroutine start_distances
 
-  !> Distances from gaps and displacements less `motion`. Found: their sum over the contact, and the largest magnitude of
-  !> a displacement.
+  !> Distances from gaps and displacements less `motion`. Found: their sum over the contact, and the largest magnitude
+  !> of a displacement.
   subroutine take_displacements(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
@@ -221,6 +241,14 @@ contains
     pass%found(:, k) = [real(residuals, dp), real(deepest, dp), -least]
   end subroutine settle_distances
 
+  !> The direction is 1 in the contact and 0 off it.
+  subroutine mark_contact(pass, k, first, last)
+    class(point_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+
+    if (k > 0) pass%direction(first:last) = merge(1.0_sp, 0.0_sp, pass%contact(first:last))
+  end subroutine mark_contact
+
   !> Found: the sum of `uniform` over the contact.
   subroutine sum_uniform(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
@@ -251,7 +279,8 @@ contains
     end do
   end subroutine center_residuals
 
-  !> Found: the inner product of the residuals and the preconditioned ones, `work`, and the sum of these over the contact.
+  !> Found: the inner product of the residuals and the preconditioned ones, `work`, and the sum of these over the
+  !> contact.
   subroutine sum_energy(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last

@@ -2,10 +2,10 @@
 module fuge_single_preconditioner
   use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
-  use fuge_kinds, only: dp, sp
+  use fuge_kinds, only: dp
   use fuge_operator_products, only: precondition_single
   use fuge_operator_type, only: fuge_operator
-  use fuge_single_passes, only: center_residuals, point_pass, sum_energy, sum_uniform, sum_with_uniform
+  use fuge_single_passes, only: center_residuals, mark_contact, point_pass, sum_energy, sum_uniform, sum_with_uniform
   use fuge_single_state, only: single_state
   use fuge_status, only: fuge_info
   implicit none
@@ -44,15 +44,18 @@ contains
     type(single_state), intent(inout) :: state
     type(contact_iterate), intent(in) :: iterate
     type(fuge_info), intent(inout) :: info
+    type(point_pass) :: pass
     real(dp) :: points
 
     points = real(iterate%segments%points, dp)
     if (self%changed == 0) return
-    if (self%changed > 0 .and. real(self%changed, dp) <= CLOSE*points .and. points <= SMALL*real(size(scene%gap), dp)) then
+    if (self%changed > 0 .and. real(self%changed, dp) <= CLOSE*points &
+        .and. points <= SMALL*real(size(scene%gap), dp)) then
       call find_total(self, scene, state, iterate)
       if (self%total > 0.0_dp) return
     end if
-    state%direction = merge(1.0_sp, 0.0_sp, iterate%contact)
+    call state%point_to(scene, iterate, pass)
+    call pass%go(mark_contact, 0)
     call precondition_single(operator, state%direction, state%uniform, info)
     if (info%failed()) return
     self%changed = 0

@@ -11,10 +11,10 @@ module fuge_single_search
   use fuge_monitor_type, only: fuge_monitor
   use fuge_operator_type, only: fuge_operator
   use fuge_search_settings, only: note_least_compliance, search_settings, MAX_STALLS, SAFETY, WRONG_ON_COARSE
-  use fuge_single_gradients, only: run_single_gradients
+  use fuge_single_gradients, only: estimate_compliance, run_single_gradients
   use fuge_single_passes, only: exchange_points, give_displacements, point_pass, set_forces, sum_forces
   use fuge_single_preconditioner, only: single_preconditioner
-  use fuge_single_state, only: move_forces, refresh, single_state, start_displacements
+  use fuge_single_state, only: move_forces, refresh, restore_sum, single_state, start_displacements
   use fuge_stall_counter, only: stall_counter
   use fuge_status, only: fuge_info
   implicit none
@@ -55,7 +55,7 @@ contains
     type(single_preconditioner) :: preconditioner
     type(single_state) :: state
     type(stall_counter) :: stalls
-    real(dp) :: previous_residual
+    real(dp) :: previous_residual, total
     integer :: points, wrong
     logical :: confirmed, lost, possible, to_tolerance
 
@@ -74,16 +74,16 @@ contains
     do while (.not. info%failed())
       call solve_on_set(operator, settings, preconditioner, scene, to_tolerance, monitor, state, iterate, lost, info)
       if (lost .or. info%failed()) return
-      call exchange(settings, scene, state, iterate, wrong, points)
+      call exchange(settings, scene, state, iterate, wrong, points, total)
       found = wrong == 0 .and. iterate%converged
       if (found) call make_exact(settings, scene, state, iterate, found)
       if (settings%coarse_grid) found = wrong <= WRONG_ON_COARSE*real(points, dp)
       if (found) return
       if (wrong == 0) then
         if (to_tolerance .or. iterate%converged) then
-          call confirm(operator, settings, scene, previous_residual, state, iterate, confirmed, info)
+          call confirm(operator, settings, scene, total, previous_residual, state, iterate, confirmed, info)
           if (info%failed()) return
-          if (confirmed) call exchange(settings, scene, state, iterate, wrong, points)
+          if (confirmed) call exchange(settings, scene, state, iterate, wrong, points, total)
           found = confirmed .and. wrong == 0
           if (found) return
         end if
@@ -97,7 +97,8 @@ contains
       call preconditioner%note_changes(wrong)
       iterate%least_compliance = 0.0_dp
       previous_residual = huge(previous_residual)
-      call restore_load(operator, scene, state, iterate, info)
+      call set_load(scene, total, state, iterate)
+      call move_forces(operator, scene, state, iterate, info)
     end do
   end subroutine find_in_single
 
@@ -134,6 +135,7 @@ contains
     if (exact) return
     exact = settings%tolerance >= LOOSE .and. state%drift <= NEGLIGIBLE*settings%tolerance*iterate%least_magnitude
     if (.not. exact) return
+    call restore_sum(scene, state, iterate)
     call state%point_to(scene, iterate, pass)
     pass%shift = state%offset
     call pass%go(give_displacements, 0)
@@ -154,19 +156,8 @@ contains
     call pass%go(set_forces, 0)
   end subroutine set_load
 
-  !> Forces that push, of sum 1, in a new contact, and their displacements.
-  subroutine restore_load(operator, scene, state, iterate, info)
-    class(fuge_operator), intent(in) :: operator
-    type(contact_scene), intent(in) :: scene
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(inout) :: iterate
-    type(fuge_info), intent(inout) :: info
-
-    call set_load(scene, sum(iterate%force, mask=iterate%contact), state, iterate)
-    call move_forces(operator, scene, state, iterate, info)
-  end subroutine restore_load
-
-  !> Solve for the forces of the present contact set, as solve_on_contact_set of fuge_contact_set_search.
+  !> Solve for the forces of the present contact set, as solve_on_contact_set of fuge_contact_set_search, with
+  !> ten arguments: two more are the state and whether it is `lost`.
   subroutine solve_on_set(operator, settings, preconditioner, scene, to_tolerance, monitor, state, iterate, lost, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
@@ -184,21 +175,29 @@ contains
     if (info%failed()) return
     call preconditioner%set(operator, scene, state, iterate, info)
     if (info%failed()) return
-    call run_single_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, state, iterate, &
-                              lost, info)
+    call run_single_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, state, &
+                              iterate, lost, info)
     if (lost .or. info%failed()) return
     info%iterations = info%iterations + 1
     if (.not. settings%coarse_grid) call note_least_compliance(iterate)
+    if (iterate%converged .and. settings%tolerance >= LOOSE &
+        .and. .not. (settings%coarse_grid .or. settings%prepared)) then
+      if (.not. iterate%least_compliance > 0.0_dp) call estimate_compliance(operator, preconditioner, scene, state, &
+                                                                            iterate, info)
+      if (info%failed()) return
+    end if
     call tell_progress(scene, iterate, monitor, info)
   end subroutine solve_on_set
 
-  !> Tensile points leave the contact, those that penetrate join it: how many were `wrong`, and the `points` in contact.
-  subroutine exchange(settings, scene, state, iterate, wrong, points)
+  !> Tensile points leave the contact, those that penetrate join it: how many were `wrong`, the `points` in
+  !> contact, and the `total` of their forces.
+  subroutine exchange(settings, scene, state, iterate, wrong, points, total)
     type(search_settings), intent(in) :: settings
     type(contact_scene), intent(in) :: scene
     type(single_state), intent(in) :: state
     type(contact_iterate), intent(inout) :: iterate
     integer, intent(out) :: wrong, points
+    real(dp), intent(out) :: total
     type(point_pass) :: pass
 
     call state%point_to(scene, iterate, pass)
@@ -206,15 +205,18 @@ contains
     pass%shift = state%offset
     call pass%go(exchange_points, 3)
     wrong = nint(pass%total(1))
+    total = pass%total(2)
     points = nint(pass%total(3))
   end subroutine exchange
 
-  !> Confirm a contact set without wrong points by a product in double precision; `confirmed` if the residual is within
-  !> the tolerance, or has not halved since the last confirmation, `previous_residual`.
-  subroutine confirm(operator, settings, scene, previous_residual, state, iterate, confirmed, info)
+  !> Confirm a contact set without wrong points, whose forces have the sum `total`, by a product in double precision;
+  !> `confirmed` if the residual is within the tolerance, or has not halved since the last confirmation,
+  !> `previous_residual`. The arguments are nine, as of confirm_contact_set, the state and the sum.
+  subroutine confirm(operator, settings, scene, total, previous_residual, state, iterate, confirmed, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
     type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: total
     real(dp), intent(inout) :: previous_residual
     type(single_state), intent(inout) :: state
     type(contact_iterate), intent(inout) :: iterate
@@ -222,10 +224,11 @@ contains
     type(fuge_info), intent(inout) :: info
 
     confirmed = .false.
-    call set_load(scene, sum(iterate%force, mask=iterate%contact), state, iterate)
+    call set_load(scene, total, state, iterate)
     call refresh(operator, scene, .false., state, iterate, info)
     if (info%failed()) return
-    confirmed = is_accurate(iterate, SAFETY*settings%tolerance) .or. .not. iterate%residual_norm < 0.5_dp*previous_residual
+    confirmed = is_accurate(iterate, SAFETY*settings%tolerance) &
+                .or. .not. iterate%residual_norm < 0.5_dp*previous_residual
     previous_residual = iterate%residual_norm
   end subroutine confirm
 

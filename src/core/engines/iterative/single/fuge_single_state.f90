@@ -5,12 +5,13 @@ module fuge_single_state
   use fuge_kinds, only: dp, sp
   use fuge_operator_products, only: multiply, multiply_single
   use fuge_operator_type, only: fuge_operator
-  use fuge_single_passes, only: add_moves, point_pass, settle_distances, start_distances, sum_gaps, take_displacements
+  use fuge_single_passes, only: add_moves, point_pass, scale_forces, settle_distances, start_distances, &
+    sum_contact_forces, sum_gaps, take_displacements
   use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
-  public :: move_forces, refresh, start_displacements
+  public :: move_forces, refresh, restore_sum, start_displacements
 
   !> Products in single precision have errors of this fraction of their largest result.
   real(dp), parameter, public :: SINGLE_ERROR = 5.0e-7_dp
@@ -110,6 +111,19 @@ contains
     state%drift = state%drift + SINGLE_ERROR*pass%largest(2)
     call settle(operator, scene, pass%total(1)/real(iterate%segments%points, dp), state, iterate)
   end subroutine move_forces
+
+  !> Forces of sum 1, from which steps in single precision lead away by rounding.
+  subroutine restore_sum(scene, state, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(single_state), intent(in) :: state
+    type(contact_iterate), intent(inout) :: iterate
+    type(point_pass) :: pass
+
+    call state%point_to(scene, iterate, pass)
+    call pass%go(sum_contact_forces, 1)
+    pass%factor = 1.0_dp/pass%total(1)
+    call pass%go(scale_forces, 0)
+  end subroutine restore_sum
 
   !> Distances by a product in double precision, unless `multiplied`: then the iterate has its displacements. Errors:
   !> those of the operator, FUGE_ERR_MEMORY.
