@@ -133,7 +133,7 @@ contains
     ! Violations stay huge: a product with NaN would show nothing.
     if (space%anywhere(pass%largest(3) > 0.0_dp)) return
     call take_forces(pass, space, forces)
-    ! Kept of each point: its displacement; R q and the terms of it, where there are modes; the terms of the displacement
+    ! Kept of each point: its displacement; R q and the terms of it, where there are modes; the terms of displacements,
     ! where they differ from point to point. One array, because small problems spend much of their time on allocations.
     common = operator%common_magnitude(0.0_dp, 0.0_dp) >= 0.0_dp
     columns = merge(1, 3, .not. allocated(problem%modes)) + merge(0, 1, common)
