@@ -6,45 +6,34 @@ module fuge_data_scales
   implicit none
   private
 
-  public :: data_length, is_loaded, is_prescribed, largest_by_mode, largest_of_body
+  public :: data_length, gap_less_motions, is_loaded, is_prescribed, largest_by_mode, largest_of_body
 
 contains
 
   !> The lengths that the data have: the range of the gaps (their size, but for one translation) under the prescribed
   !> motions, the plays, and what the loads displace.
   !>
-  !> `force` (n), not all zero, makes the terms `elastic` (n) of A f; loads that are smaller displace less. `included`
-  !> (n) marks the points that take part. `space` may share the points.
-  function data_length(problem, force, elastic, included, space) result(length)
+  !> Of the points that take part: `arms` (m), the largest displacement by a unit of each motion, 1 for one translation;
+  !> `extremes`, the largest of the magnitude of a gap as from `gap_less_motions`, of this gap, of minus this gap, of
+  !> the terms of A f, and of the plays that are finite, -huge without any. `total` > 0 is the sum of the magnitudes of
+  !> the forces that make these terms; loads that are smaller displace less.
+  pure function data_length(problem, arms, extremes, total) result(length)
     type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: force(:), elastic(:)
-    logical, intent(in) :: included(:)
-    type(point_space), intent(in) :: space
+    real(dp), intent(in) :: arms(:), extremes(5), total
     real(dp) :: length
-    real(dp) :: extremes(4), gap, load, arm
-    integer :: j, k
+    real(dp) :: load
+    integer :: j
 
     load = 0.0_dp
-    do j = 1, problem%mode_count()
-      arm = 1.0_dp
-      if (allocated(problem%modes)) arm = space%largest(maxval(abs(problem%modes(:, j)), mask=included))
+    do j = 1, size(arms)
       if (is_prescribed(problem, j)) cycle
-      if (arm > 0.0_dp) load = max(load, abs(problem%resultant(j))/arm)
+      if (arms(j) > 0.0_dp) load = max(load, abs(problem%resultant(j))/arms(j))
     end do
-    extremes = -huge(extremes)
-    do k = 1, size(elastic)
-      if (.not. included(k)) cycle
-      gap = gap_less_motions(problem, k)
-      extremes = max(extremes, [abs(gap), gap, -gap, elastic(k)])
-    end do
-    call space%raise(extremes)
     length = extremes(1)
     if (.not. allocated(problem%modes)) then
       if (.not. is_prescribed(problem, 1)) length = extremes(2) + extremes(3)
     end if
-    if (allocated(problem%gap_upper)) length = max(length, &
-      space%largest(maxval(problem%gap_upper, mask=included .and. problem%gap_upper < huge(length))))
-    length = length + min(load/space%total(sum(abs(force))), 1.0_dp)*extremes(4)
+    length = max(length, extremes(5)) + min(load/total, 1.0_dp)*extremes(4)
   end function data_length
 
   !> The gap of point `k` less the displacements by the prescribed motions.
