@@ -2,9 +2,8 @@
 !>
 !> It shares no code with any engine but the call of the operator, and sees only the caller's data.
 module fuge_certificate
-  use fuge_certificate_passes, only: add_rounding_of_bodies, certificate_pass, find_arms, find_reference, &
-    find_rigid_displacement, judge_points, sum_open_lengths, sum_terms, survey_displacements, &
-    survey_forces, tile_lengths, TILE
+  use fuge_certificate_passes, only: add_rounding_of_bodies, certificate_pass, find_arms, find_rigid_displacement, &
+    judge_points, sum_open_lengths, sum_terms, survey_displacements, survey_forces, tile_lengths, TILE
   use fuge_data_scales, only: data_length, largest_by_mode, largest_of_body
   use fuge_elastic_energy, only: elastic_energy, energy_units
   use fuge_kinds, only: dp
@@ -123,16 +122,16 @@ contains
     type(certificate_pass) :: pass
     type(point_space) :: space
     real(dp), allocatable, target :: error(:), lengths(:, :)
-    real(dp) :: forces(3), none(0), sums(2), units(2)
-    integer :: columns, stat
+    real(dp) :: forces(3), found(6), sums(2), units(2)
+    integer :: columns, reference, stat
     logical :: common
 
     space = operator%ranks()
     call pass%point_to(problem, solution)
-    call pass%go(survey_forces)
+    call pass%go(survey_forces, 2, found)
     ! Violations stay huge: a product with NaN would show nothing.
-    if (space%anywhere(pass%largest(3) > 0.0_dp)) return
-    call take_forces(pass, space, forces)
+    if (space%anywhere(found(3) > 0.0_dp)) return
+    call take_forces(pass, space, found, forces)
     ! Kept of each point: its displacement; R q and the terms of it, where there are modes; the terms of displacements,
     ! where they differ from point to point. One array, because small problems spend much of their time on allocations.
     common = operator%common_magnitude(0.0_dp, 0.0_dp) >= 0.0_dp
@@ -151,36 +150,34 @@ contains
     call find_displacements(operator, forces, pass, units, info)
     if (info%failed()) return
     call find_motions(operator%datum(), forces, space, pass)
-    call pass%go(find_reference)
-    call pass%take(3, sums, none)
+    call pass%find_reference(sums(1), sums(2), reference)
     call space%add(sums)
     pass%shares = sums(2)
     info%energy = elastic_energy(problem, solution%motion, sums(1), units, forces(1), operator%datum())
-    call judge_with_reference(pass, space, violation)
+    call judge_with_reference(pass, reference, space, violation)
     violation%equilibrium = equilibrium_violation(problem, solution, forces, space)
     violation%unresolved = unresolved_lengths(pass, forces(2), space)
     if (.not. violation%gap_equation > suspect) return
     call take_out_rounding(operator, pass, error, info)
     if (info%failed()) return
     pass%error => error
-    call pass%go(find_reference)
-    call judge_with_reference(pass, space, violation)
+    call judge_with_reference(pass, reference, space, violation)
   end subroutine judge
 
-  !> Take what `survey_forces` has found. `forces`: their sum, that of their magnitudes, and the largest magnitude.
-  subroutine take_forces(pass, space, forces)
+  !> Take what `survey_forces` has `found`, of all ranks. `forces`: their sum, that of their magnitudes, and the largest
+  !> magnitude.
+  subroutine take_forces(pass, space, found, forces)
     type(certificate_pass), intent(inout) :: pass
     type(point_space), intent(in) :: space
+    real(dp), intent(inout) :: found(6)
     real(dp), intent(out) :: forces(3)
-    real(dp) :: largest(3)
 
-    call pass%take(4, forces(:2), largest)
-    call space%add(forces(:2))
-    call space%raise(largest)
-    forces(3) = largest(1)
-    pass%largest_force = largest(1)
-    pass%largest_included = largest(2)
-    pass%is_any_included = largest(3) > 0.0_dp
+    call space%add(found(:2))
+    call space%raise(found(4:))
+    forces = [found(1), found(2), found(4)]
+    pass%largest_force = found(4)
+    pass%largest_included = found(5)
+    pass%is_any_included = found(6) > 0.0_dp
     ! Forces that push with one load between them do not dwarf it.
     pass%with_shares = pass%largest_included > 0.0_dp .and. .not. pass%problem%is_plain()
   end subroutine take_forces
@@ -194,7 +191,7 @@ contains
     real(dp), intent(out) :: units(2)
     type(fuge_info), intent(inout) :: info
     type(point_space) :: space
-    real(dp) :: largest(2), no_sums(0)
+    real(dp) :: largest(2)
 
     units = 1.0_dp
     space = operator%ranks()
@@ -204,8 +201,7 @@ contains
       call multiply(operator, pass%force, pass%displacement, info)
     end if
     if (info%failed()) return
-    call pass%go(survey_displacements)
-    call pass%take(1, no_sums, largest)
+    call pass%go(survey_displacements, 0, largest)
     call space%raise(largest)
     if (.not. associated(pass%terms)) pass%common_terms = operator%common_magnitude(largest(1), forces(2))
     units = energy_units([forces(3), largest(2)])
@@ -217,38 +213,36 @@ contains
     real(dp), intent(in) :: datum, forces(3)
     type(point_space), intent(in) :: space
     type(certificate_pass), intent(inout) :: pass
-    real(dp) :: no_sums(0)
-    integer :: m
+    real(dp), allocatable :: by_mode(:)
+    real(dp) :: nothing(0)
 
     pass%common_rigid = -datum*forces(1)
     ! Forces of both signs may cancel in the sum, but not their rounding.
     pass%common_rigid_magnitude = abs(datum)*forces(2)
     if (.not. associated(pass%rigid)) then
-      pass%common_rigid = pass%solution%motion(1) + pass%common_rigid
-      pass%common_rigid_magnitude = pass%common_rigid_magnitude + abs(pass%solution%motion(1))
+      pass%common_rigid = pass%motion(1) + pass%common_rigid
+      pass%common_rigid_magnitude = pass%common_rigid_magnitude + abs(pass%motion(1))
       return
     end if
-    m = size(pass%solution%motion)
-    call pass%go(find_rigid_displacement, numbers=2*m)
-    allocate (pass%by_mode(2*m))
-    call pass%take(1, no_sums, pass%by_mode)
-    call space%raise(pass%by_mode)
-    call pass%go(add_rounding_of_bodies)
+    allocate (by_mode(2*size(pass%motion)))
+    call pass%go(find_rigid_displacement, 0, by_mode)
+    call space%raise(by_mode)
+    call move_alloc(by_mode, pass%by_mode)
+    call pass%go(add_rounding_of_bodies, 0, nothing)
   end subroutine find_motions
 
-  !> Judge all points, after `find_reference`. For one translation, the error that all points share (that of v_0) and
-  !> the rest are judged separately.
-  subroutine judge_with_reference(pass, space, violation)
+  !> Judge all points, with the one that `find_reference` has found here. For one translation, the error that all points
+  !> share (that of v_0) and the rest are judged separately.
+  subroutine judge_with_reference(pass, reference, space, violation)
     type(certificate_pass), intent(inout) :: pass
+    integer, intent(in) :: reference
     type(point_space), intent(in) :: space
     type(fuge_violation), intent(inout) :: violation
     type(tile_lengths) :: at
-    real(dp) :: at_reference(4), key, no_sums(0), violations(3)
-    integer :: reference
+    real(dp) :: at_reference(4), key, violations(3)
 
     key = huge(key)
     at_reference = 0.0_dp
-    reference = pass%reference()
     if (reference > 0) then
       call pass%find_lengths(reference, reference, at)
       key = merge(at%magnitude(1), pass%gap(reference), pass%largest_force > 0.0_dp)
@@ -258,8 +252,7 @@ contains
     if (.not. associated(pass%rigid)) pass%shared_error = at_reference(1)
     pass%reference_magnitude = at_reference(2)
     pass%reference_gap = at_reference(3)
-    call pass%go(judge_points)
-    call pass%take(1, no_sums, violations)
+    call pass%go(judge_points, 0, violations)
     call space%raise(violations)
     violation%gap_equation = max(violations(1), relative(abs(pass%shared_error), &
       max(at_reference(4), abs(at_reference(3)), at_reference(2))))
@@ -269,17 +262,17 @@ contains
   end subroutine judge_with_reference
 
   !> (A + D) f of the `force` (n), less the datum of the operator, and the `terms` of it. Errors: those of the product.
-  subroutine displace(operator, problem, force, displacement, terms, info)
+  subroutine displace(operator, pass, force, displacement, terms, info)
     class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
+    type(certificate_pass), intent(in) :: pass
     real(dp), intent(in) :: force(:)
     real(dp), intent(out), contiguous :: displacement(:), terms(:)
     type(fuge_info), intent(inout) :: info
 
     call multiply_with_magnitude(operator, force, displacement, terms, info)
-    if (info%failed() .or. .not. allocated(problem%compliance)) return
-    displacement = displacement + problem%compliance*force
-    terms = terms + problem%compliance*abs(force)
+    if (info%failed() .or. .not. associated(pass%compliance)) return
+    displacement = displacement + pass%compliance*force
+    terms = terms + pass%compliance*abs(force)
   end subroutine displace
 
   !> `largest` (n): at each point the largest magnitude of `values` (n) on its body.
@@ -320,9 +313,11 @@ contains
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     largest = pass%largest_force
-    if (associated(pass%rigid)) call spread_over_bodies(pass%problem%modes, pass%force, space, largest)
-    if (allocated(pass%problem%excluded)) where (pass%problem%excluded) largest = 0.0_dp
-    call displace(operator, pass%problem, largest, of_bodies, terms, info)
+    if (associated(pass%rigid)) call spread_over_bodies(pass%modes, pass%force, space, largest)
+    if (associated(pass%excluded)) then
+      where (pass%excluded) largest = 0.0_dp
+    end if
+    call displace(operator, pass, largest, of_bodies, terms, info)
     if (info%failed()) return
     most = -huge(most)
     do k = 1, n
@@ -340,7 +335,7 @@ contains
     end do
     largest = space%largest(most)
     if (associated(pass%rigid)) then
-      call spread_over_bodies(pass%problem%modes, terms, space, of_bodies)
+      call spread_over_bodies(pass%modes, terms, space, of_bodies)
       ! A body that no force displaces has no lengths of its own.
       where (of_bodies > 0.0_dp) largest = of_bodies
     end if
@@ -363,7 +358,7 @@ contains
     real(dp), intent(in) :: total
     type(point_space), intent(in) :: space
     real(dp) :: violation
-    real(dp) :: length, length_beside, terms
+    real(dp) :: length, length_beside, open(1), terms
 
     violation = 0.0_dp
     if (.not. pass%with_shares) return
@@ -373,8 +368,9 @@ contains
     pass%least_force = BESIDE*pass%largest_included
     call find_data_length(pass, total, space, length_beside, terms)
     length = max(RESOLVED*length, length_beside)
-    call pass%go(sum_open_lengths)
-    violation = relative(space%total(pass%total(1)), length)
+    call pass%go(sum_open_lengths, 1, open)
+    call space%add(open)
+    violation = relative(open(1), length)
     if (violation <= RESOLVED) violation = 0.0_dp
   end function unresolved_lengths
 
@@ -385,19 +381,17 @@ contains
     real(dp), intent(in) :: total
     type(point_space), intent(in) :: space
     real(dp), intent(out) :: length, terms
-    real(dp) :: arms(pass%problem%mode_count()), extremes(5), no_sums(0), sums(1)
+    real(dp) :: arms(pass%problem%mode_count()), found(6)
 
     arms = 1.0_dp
     if (associated(pass%rigid)) then
-      call pass%go(find_arms, numbers=size(arms))
-      call pass%take(1, no_sums, arms)
+      call pass%go(find_arms, 0, arms)
       call space%raise(arms)
     end if
-    call pass%go(sum_terms)
-    call pass%take(2, sums, extremes)
-    terms = space%total(sums(1))
-    call space%raise(extremes)
-    length = data_length(pass%problem, arms, extremes, total)
+    call pass%go(sum_terms, 1, found)
+    terms = space%total(found(1))
+    call space%raise(found(2:))
+    length = data_length(pass%problem, arms, found(2:), total)
   end subroutine find_data_length
 
   !> Is every array allocated, and as long as the operator has points? Where ranks share the points, one may have none.

@@ -1,30 +1,36 @@
 !> The passes of the certificate over the points, in chunks (fuge_point_chunks). What can be had from the data of a
 !> point is not kept, because large arrays do not stay in the cache from one pass to the next.
 module fuge_certificate_passes
-  use fuge_data_scales, only: gap_less_motions, is_loaded, largest_of_body
+  use fuge_data_scales, only: free_resultant, is_loaded, largest_of_body
   use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_load_balance, only: ROUNDINGS
-  use fuge_point_chunks, only: chunked_pass
+  use fuge_point_chunks, only: chunked_pass, CHUNK
   use fuge_point_law, only: point_law
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_relative_size, only: relative
   implicit none
   private
 
-  public :: add_rounding_of_bodies, find_arms, find_reference, find_rigid_displacement, judge_points, &
-    survey_displacements, survey_forces, sum_open_lengths, sum_terms
+  public :: add_rounding_of_bodies, find_arms, find_rigid_displacement, judge_points, survey_displacements, &
+    survey_forces, sum_open_lengths, sum_terms
 
-  !> Numbers that a pass finds in each chunk, used or not, so that all passes share one array.
-  integer, parameter :: RESULTS = 6
   !> Points of which the lengths are computed at once, into arrays that stay in the cache.
   integer, parameter, public :: TILE = 128
 
-  !> What the passes read, with arrays of (n): pointers to what belongs to the caller.
+  !> What the passes read, with arrays of (n): pointers to what belongs to the caller. His arrays may begin with another
+  !> number than 1, which is why no pass reads them through the problem.
   type, extends(chunked_pass), public :: certificate_pass
     type(fuge_problem), pointer :: problem => null()
-    type(fuge_solution), pointer :: solution => null()
+    !> Of the problem and of the solution; those without a default are always there, `modes` are (n, m), `motion` (m).
     real(dp), pointer, contiguous :: gap(:) => null(), force(:) => null(), gap_under_load(:) => null()
+    real(dp), pointer, contiguous :: motion(:) => null(), modes(:, :) => null()
+    real(dp), pointer, contiguous :: gap_upper(:) => null(), compliance(:) => null()
+    real(dp), pointer, contiguous :: limit(:) => null(), limit_upper(:) => null()
+    logical, pointer, contiguous :: excluded(:) => null()
+    !> Of each mode, (m): the prescribed motion, 0 where it is free, if any is prescribed; the resultant, 0 where it is
+    !> prescribed, where there are modes.
+    real(dp), allocatable :: prescribed_motion(:), resultants(:)
     !> A f less the datum; after `survey_displacements` with the compliances.
     real(dp), pointer, contiguous :: displacement(:) => null()
     !> The terms of A f, where they differ from point to point, else `common_terms`.
@@ -58,7 +64,7 @@ module fuge_certificate_passes
     procedure :: included
     procedure :: find_lengths
     procedure :: find_magnitudes
-    procedure :: reference
+    procedure :: find_reference
   end type certificate_pass
 
   !> Lengths of TILE points or less; not initialised, because most of them are overwritten at once.
@@ -72,11 +78,12 @@ module fuge_certificate_passes
   end type tile_lengths
 
   abstract interface
-    !> Chunk `k`, the points `first` .. `last`.
-    subroutine chunk_operation(pass, k, first, last)
-      import :: certificate_pass
-      class(certificate_pass), intent(inout) :: pass
-      integer, intent(in) :: k, first, last
+    !> The points `first` .. `last` of a chunk. `found` is zero before.
+    subroutine chunk_operation(pass, first, last, found)
+      import :: certificate_pass, dp
+      class(certificate_pass), intent(in) :: pass
+      integer, intent(in) :: first, last
+      real(dp), intent(inout), contiguous :: found(:)
     end subroutine chunk_operation
   end interface
 
@@ -87,33 +94,51 @@ contains
     class(certificate_pass), intent(inout) :: self
     type(fuge_problem), intent(in), target :: problem
     type(fuge_solution), intent(in), target :: solution
+    integer :: j
 
     self%problem => problem
-    self%solution => solution
-    self%gap => problem%gap
-    self%force => solution%force
-    self%gap_under_load => solution%gap
+    self%gap(1:) => problem%gap
+    self%force(1:) => solution%force
+    self%gap_under_load(1:) => solution%gap
+    self%motion(1:) => solution%motion
+    if (allocated(problem%excluded)) self%excluded(1:) => problem%excluded
+    if (allocated(problem%gap_upper)) self%gap_upper(1:) => problem%gap_upper
+    if (allocated(problem%compliance)) self%compliance(1:) => problem%compliance
+    if (allocated(problem%limit)) self%limit(1:) => problem%limit
+    if (allocated(problem%limit_upper)) self%limit_upper(1:) => problem%limit_upper
+    if (allocated(problem%prescribed)) self%prescribed_motion = problem%prescribed_motion()
+    if (.not. allocated(problem%modes)) return
+    self%modes(1:, 1:) => problem%modes
+    self%resultants = [(free_resultant(problem, j), j=1, size(self%modes, 2))]
   end subroutine point_to
 
-  !> Do `operation` on all chunks; it finds RESULTS numbers in each, or `numbers`.
-  subroutine go(self, operation, numbers)
+  !> Do `operation` on all chunks. Of the numbers that it finds in each, `found` has the sums of the first ones, so many
+  !> as `sums`, and the largest of the others. One chunk needs no memory.
+  subroutine go(self, operation, sums, found)
     class(certificate_pass), intent(inout) :: self
     procedure(chunk_operation) :: operation
-    integer, intent(in), optional :: numbers
+    integer, intent(in) :: sums
+    real(dp), intent(out), contiguous :: found(:)
 
-    self%operation => operation
-    if (present(numbers)) then
-      call self%run(size(self%gap), numbers)
+    if (size(self%gap) <= CHUNK) then
+      found = 0.0_dp
+      call operation(self, 1, size(self%gap), found)
     else
-      call self%run(size(self%gap), RESULTS)
+      self%operation => operation
+      call self%run(size(self%gap), size(found))
+      call self%take(sums + 1, found(:sums), found(sums + 1:))
     end if
   end subroutine go
 
+  !> Chunk `k`, the points `first` .. `last`.
   subroutine do_chunk(self, k, first, last)
     class(certificate_pass), intent(inout) :: self
     integer, intent(in) :: k, first, last
+    real(dp) :: found(size(self%found, 1))
 
-    call self%operation(self, k, first, last)
+    found = 0.0_dp
+    call self%operation(self, first, last, found)
+    self%found(:, k) = found
   end subroutine do_chunk
 
   !> Does point `k` take part in the contact?
@@ -123,7 +148,7 @@ contains
     logical :: included
 
     included = .true.
-    if (allocated(self%problem%excluded)) included = .not. self%problem%excluded(k)
+    if (associated(self%excluded)) included = .not. self%excluded(k)
   end function included
 
   !> The magnitudes and their terms of the points `first` .. `last`, at most TILE.
@@ -139,8 +164,8 @@ contains
     else
       at%elastic(:n) = self%common_terms
     end if
-    if (allocated(self%problem%compliance)) at%elastic(:n) = at%elastic(:n) &
-      + self%problem%compliance(first:last)*abs(self%force(first:last))
+    if (associated(self%compliance)) at%elastic(:n) = at%elastic(:n) &
+                                                      + self%compliance(first:last)*abs(self%force(first:last))
     if (associated(self%rigid)) then
       at%rigid_gap(:n) = self%gap(first:last) - self%rigid(first:last)
       at%rigid_magnitude(:n) = self%rigid_magnitude(first:last)
@@ -169,14 +194,15 @@ contains
 
   !> Found: the sum of the forces and that of their magnitudes; 1 if a force is not finite, in place of the rest, the
   !> largest magnitude, that of the points that are not excluded, and 1 if there are such points.
-  subroutine survey_forces(pass, k, first, last)
-    class(certificate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
+  subroutine survey_forces(pass, first, last, found)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: found(:)
     real(dp) :: any_included, force, largest, most_included, total, total_magnitude
     integer :: i
 
     if (.not. is_finite_everywhere(pass%force(first:last))) then
-      pass%found(3, k) = 1.0_dp
+      found(3) = 1.0_dp
       return
     end if
     total = 0.0_dp
@@ -190,41 +216,43 @@ contains
     end do
     any_included = merge(1.0_dp, 0.0_dp, last >= first)
     most_included = largest
-    if (allocated(pass%problem%excluded)) then
+    if (associated(pass%excluded)) then
       any_included = 0.0_dp
       most_included = 0.0_dp
       do i = first, last
-        if (pass%problem%excluded(i)) cycle
+        if (pass%excluded(i)) cycle
         any_included = 1.0_dp
         most_included = max(most_included, abs(pass%force(i)))
       end do
     end if
-    pass%found(:, k) = [total, total_magnitude, 0.0_dp, largest, most_included, any_included]
+    found(:6) = [total, total_magnitude, 0.0_dp, largest, most_included, any_included]
   end subroutine survey_forces
 
   !> Add the displacements by compliances. Found: the largest magnitude of a displacement without them, and with them.
-  subroutine survey_displacements(pass, k, first, last)
-    class(certificate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
+  subroutine survey_displacements(pass, first, last, found)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: found(:)
 
     if (last < first) return
-    pass%found(1, k) = maxval(abs(pass%displacement(first:last)))
-    pass%found(2, k) = pass%found(1, k)
-    if (.not. allocated(pass%problem%compliance)) return
+    found(1) = maxval(abs(pass%displacement(first:last)))
+    found(2) = found(1)
+    if (.not. associated(pass%compliance)) return
     pass%displacement(first:last) = pass%displacement(first:last) &
-                                    + pass%problem%compliance(first:last)*pass%force(first:last)
-    pass%found(2, k) = maxval(abs(pass%displacement(first:last)))
+                                    + pass%compliance(first:last)*pass%force(first:last)
+    found(2) = maxval(abs(pass%displacement(first:last)))
   end subroutine survey_displacements
 
   !> `rigid` and the terms of it in `rigid_magnitude`, where there are m modes. Found, (2 m): for each mode the largest
   !> size of a gap and these terms at the points that it moves, and the largest force at them.
-  subroutine find_rigid_displacement(pass, k, first, last)
-    class(certificate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
+  subroutine find_rigid_displacement(pass, first, last, found)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: found(:)
     real(dp) :: force, length
     integer :: i, j
 
-    associate (modes => pass%problem%modes, motion => pass%solution%motion)
+    associate (modes => pass%modes, motion => pass%motion)
       pass%rigid(first:last) = pass%common_rigid
       pass%rigid_magnitude(first:last) = pass%common_rigid_magnitude
       do j = 1, size(motion)
@@ -241,22 +269,23 @@ contains
             if (included(pass, i)) length = abs(pass%gap(i)) + pass%rigid_magnitude(i)
           end if
         end do
-        pass%found(j, k) = length
-        pass%found(size(motion) + j, k) = force
+        found(j) = length
+        found(size(motion) + j) = force
       end do
     end associate
   end subroutine find_rigid_displacement
 
   !> Motions are solved for together: each one that moves a point is rounded like the largest length of the body, of
-  !> `by_mode`.
-  subroutine add_rounding_of_bodies(pass, k, first, last)
-    class(certificate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
+  !> `by_mode`. Finds nothing.
+  subroutine add_rounding_of_bodies(pass, first, last, found)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: found(:)
     real(dp) :: largest
     integer :: i, j, moving
 
-    if (k < 1) return
-    associate (modes => pass%problem%modes)
+    found = 0.0_dp
+    associate (modes => pass%modes)
       do i = first, last
         largest = 0.0_dp
         moving = 0
@@ -270,12 +299,38 @@ contains
     end associate
   end subroutine add_rounding_of_bodies
 
+  !> The `work` of the forces on the displacements in the units of which `inverse_unit` has the inverse; `shares`, the sum
+  !> of the forces of points that are not excluded, as fractions of the largest one, if they are wanted; the number of
+  !> the contact point with the least magnitude, or with the least gap where there are no forces, 0 if there is none.
+  subroutine find_reference(self, work, shares, reference)
+    class(certificate_pass), intent(inout) :: self
+    real(dp), intent(out) :: work, shares
+    integer, intent(out) :: reference
+    real(dp) :: found(4), key
+    integer :: k
+
+    call self%go(survey_references, 2, found)
+    work = found(1)
+    shares = found(2)
+    reference = int(found(4))
+    if (size(self%gap) <= CHUNK) return
+    reference = 0
+    key = 0.0_dp
+    do k = 1, size(self%found, 2)
+      if (.not. self%found(4, k) > 0.0_dp) cycle
+      if (.not. comes_before(self%found(3, k), key, reference)) cycle
+      key = self%found(3, k)
+      reference = int(self%found(4, k))
+    end do
+  end subroutine find_reference
+
   !> Found: the work of the forces on the displacements in the units of which `inverse_unit` has the inverse; the sum of
   !> the forces of points that are not excluded, as fractions of the largest one; the least magnitude of a contact
   !> point, or the least gap where there are no forces, and the number of that point, 0 if there is none.
-  subroutine find_reference(pass, k, first, last)
-    class(certificate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
+  subroutine survey_references(pass, first, last, found)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: found(:)
     type(tile_lengths) :: at
     real(dp) :: contact_force, force, inverse(2), key, shares, work
     integer :: i, reference, start
@@ -285,7 +340,7 @@ contains
     shares = 0.0_dp
     key = 0.0_dp
     reference = 0
-    excludes = allocated(pass%problem%excluded)
+    excludes = associated(pass%excluded)
     inverse = pass%inverse_unit
     has_forces = pass%largest_force > 0.0_dp
     ! A force of rounding size is no contact.
@@ -311,8 +366,8 @@ contains
         reference = i
       end do
     end do
-    pass%found(:4, k) = [work, shares, key, real(reference, dp)]
-  end subroutine find_reference
+    found(:4) = [work, shares, key, real(reference, dp)]
+  end subroutine survey_references
 
   !> Gaps in place of magnitudes.
   pure subroutine find_gaps(pass, first, last, at)
@@ -332,36 +387,18 @@ contains
     comes_before = reference == 0 .or. value < key .or. .not. key <= huge(key)
   end function comes_before
 
-  !> The point that `find_reference` has found; 0 if there is none.
-  pure function reference(self)
-    class(certificate_pass), intent(in) :: self
-    integer :: reference
-    real(dp) :: key
-    integer :: k
-
-    reference = 0
-    key = 0.0_dp
-    do k = 1, size(self%found, 2)
-      if (.not. self%found(4, k) > 0.0_dp) cycle
-      if (.not. comes_before(self%found(3, k), key, reference)) cycle
-      key = self%found(3, k)
-      reference = int(self%found(4, k))
-    end do
-  end function reference
-
   !> Found: the largest violations of equation (9), of signs and of complementarity.
-  subroutine judge_points(pass, k, first, last)
-    class(certificate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
+  subroutine judge_points(pass, first, last, found)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: found(:)
     type(tile_lengths) :: at
     real(dp) :: violations(3)
     integer :: finish, start
     logical :: simple
 
-    associate (problem => pass%problem)
-      simple = .not. (allocated(problem%excluded) .or. allocated(problem%gap_upper) .or. allocated(pass%by_mode) &
-                      .or. problem%has_limits())
-    end associate
+    simple = .not. (associated(pass%excluded) .or. associated(pass%gap_upper) .or. allocated(pass%by_mode) &
+                    .or. has_limits(pass))
     violations = 0.0_dp
     do start = first, last, TILE
       finish = min(start + TILE - 1, last)
@@ -373,7 +410,7 @@ contains
         call judge_contact(pass, start, finish, at, violations(2:3))
       end if
     end do
-    pass%found(:3, k) = violations
+    found(:3) = violations
   end subroutine judge_points
 
   !> Raise `violations`, of signs and of complementarity, to those of the points `first` .. `last`, with lengths `at`.
@@ -386,8 +423,8 @@ contains
     logical :: excludes, limited
     integer :: i
 
-    excludes = allocated(pass%problem%excluded)
-    limited = pass%problem%has_limits()
+    excludes = associated(pass%excluded)
+    limited = has_limits(pass)
     rounding = 0.0_dp
     body_force = pass%largest_force
     do i = first, last
@@ -399,7 +436,7 @@ contains
       end if
       if (allocated(pass%by_mode)) call find_force_of_body(pass, i, body_force, rounding)
       if (limited) then
-        call judge_law(pass%problem%law(i), pass%force(i), pass%gap_under_load(i), body_force, &
+        call judge_law(law(pass, i), pass%force(i), pass%gap_under_load(i), body_force, &
                        at%magnitude(i - first + 1), rounding, violations)
       else
         call judge_stops(pass%force(i), pass%gap_under_load(i), upper_stop(pass, i), body_force, &
@@ -436,8 +473,27 @@ contains
     real(dp) :: upper
 
     upper = huge(upper)
-    if (allocated(pass%problem%gap_upper)) upper = min(pass%problem%gap_upper(k), upper)
+    if (associated(pass%gap_upper)) upper = min(pass%gap_upper(k), upper)
   end function upper_stop
+
+  !> Do forces have limits?
+  pure function has_limits(pass)
+    class(certificate_pass), intent(in) :: pass
+    logical :: has_limits
+
+    has_limits = associated(pass%limit) .or. associated(pass%limit_upper)
+  end function has_limits
+
+  !> The law of point `k`, which is not excluded, huge where infinite.
+  pure function law(pass, k)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: k
+    type(point_law) :: law
+
+    law%play = upper_stop(pass, k)
+    if (associated(pass%limit)) law%limit = min(pass%limit(k), huge(law%limit))
+    if (associated(pass%limit_upper)) law%limit_upper = min(pass%limit_upper(k), huge(law%limit_upper))
+  end function law
 
   !> Raise `violation` to those of equation (9) at the points `first` .. `last`, with lengths `at`.
   pure subroutine judge_gaps(pass, first, last, at, violation)
@@ -468,12 +524,12 @@ contains
     integer, intent(in) :: k
     real(dp), intent(out) :: body_force, rounding
 
-    body_force = largest_of_body(pass%problem%modes, pass%by_mode(size(pass%problem%modes, 2) + 1:), k)
+    body_force = largest_of_body(pass%modes, pass%by_mode(size(pass%modes, 2) + 1:), k)
     if (.not. body_force > 0.0_dp) body_force = pass%largest_force
     ! Beside the largest force, smaller ones of other bodies may be rounding, but for those that carry a load.
     rounding = 0.0_dp
     if (body_force < pass%largest_force) then
-      if (.not. is_loaded(pass%problem, k)) rounding = ROUNDINGS*epsilon(rounding)*pass%largest_force
+      if (.not. is_loaded(pass%modes, pass%resultants, k)) rounding = ROUNDINGS*epsilon(rounding)*pass%largest_force
     end if
   end subroutine find_force_of_body
 
@@ -531,17 +587,18 @@ contains
   !> Found, of the points that are not excluded and have forces above `least_force`: the sum of the terms of
   !> displacements, each with its share of the forces; the largest of the magnitude of a gap less prescribed motions, of
   !> that gap, of minus that gap and of the terms; the largest play. -huge where there are none.
-  subroutine sum_terms(pass, k, first, last)
-    class(certificate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
+  subroutine sum_terms(pass, first, last, found)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: found(:)
     type(tile_lengths) :: at
     real(dp) :: elastic, extremes(3), gap, terms, upper
     integer :: i, start
     logical :: excludes, prescribes, with_stops
 
-    excludes = allocated(pass%problem%excluded)
-    prescribes = allocated(pass%problem%prescribed)
-    with_stops = allocated(pass%problem%gap_upper)
+    excludes = associated(pass%excluded)
+    prescribes = allocated(pass%prescribed_motion)
+    with_stops = associated(pass%gap_upper)
     extremes = -huge(extremes)
     upper = -huge(upper)
     terms = 0.0_dp
@@ -554,7 +611,7 @@ contains
         end if
         elastic = at%elastic(i - start + 1)
         gap = pass%gap(i)
-        if (prescribes) gap = gap_less_motions(pass%problem, i)
+        if (prescribes) gap = gap_less_motions(pass, i)
         if (gap > extremes(1)) extremes(1) = gap
         if (-gap > extremes(2)) extremes(2) = -gap
         if (elastic > extremes(3)) extremes(3) = elastic
@@ -564,33 +621,52 @@ contains
         terms = terms + abs(pass%force(i))/pass%largest_included/pass%shares*elastic
       end do
     end do
-    pass%found(:, k) = [terms, max(extremes(1), extremes(2)), extremes, upper]
+    found(:6) = [terms, max(extremes(1), extremes(2)), extremes, upper]
   end subroutine sum_terms
 
+  !> The gap of point `k` less the displacements by the prescribed motions.
+  pure function gap_less_motions(pass, k) result(gap)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: k
+    real(dp) :: gap
+    integer :: j
+
+    gap = pass%gap(k)
+    if (associated(pass%modes)) then
+      do j = 1, size(pass%prescribed_motion)
+        gap = gap - pass%modes(k, j)*pass%prescribed_motion(j)
+      end do
+    else
+      gap = gap - pass%prescribed_motion(1)
+    end if
+  end function gap_less_motions
+
   !> Found, (m): the largest displacement of these points by a unit of each motion; -huge where there are none.
-  subroutine find_arms(pass, k, first, last)
-    class(certificate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
+  subroutine find_arms(pass, first, last, found)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: found(:)
     real(dp) :: arm
     integer :: i, j
 
-    do j = 1, size(pass%found, 1)
+    do j = 1, size(found)
       arm = -huge(arm)
       do i = first, last
         if (.not. abs(pass%force(i)) > pass%least_force) cycle
-        if (.not. abs(pass%problem%modes(i, j)) > arm) cycle
-        if (included(pass, i)) arm = abs(pass%problem%modes(i, j))
+        if (.not. abs(pass%modes(i, j)) > arm) cycle
+        if (included(pass, i)) arm = abs(pass%modes(i, j))
       end do
-      pass%found(j, k) = arm
+      found(j) = arm
     end do
   end subroutine find_arms
 
   !> Found: the lengths that forces leave open, or that are their rounding, each with its share of the forces.
-  subroutine sum_open_lengths(pass, k, first, last)
-    class(certificate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
+  subroutine sum_open_lengths(pass, first, last, found)
+    class(certificate_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    real(dp), intent(inout), contiguous :: found(:)
     type(tile_lengths) :: at
-    type(point_law) :: law
+    type(point_law) :: law_here
     real(dp) :: excess, open
     integer :: i, j, start
 
@@ -600,14 +676,14 @@ contains
       do i = start, min(start + TILE - 1, last)
         if (.not. included(pass, i)) cycle
         j = i - start + 1
-        law = pass%problem%law(i)
+        law_here = law(pass, i)
         ! Elsewhere the terms of a displacement excuse rounding; here only those of R q and the datum do.
         excess = max(abs(at%error(j)) - 2.0_dp*epsilon(excess)*(abs(pass%gap(i)) + at%rigid_magnitude(j)), &
-                     epsilon(excess)*at%elastic(j), law%stop_distance(pass%force(i), pass%gap_under_load(i)))
+                     epsilon(excess)*at%elastic(j), law_here%stop_distance(pass%force(i), pass%gap_under_load(i)))
         open = open + abs(pass%force(i))/pass%largest_included/pass%shares*excess
       end do
     end do
-    pass%found(1, k) = open
+    found(1) = open
   end subroutine sum_open_lengths
 
 end module fuge_certificate_passes

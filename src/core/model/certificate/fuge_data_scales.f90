@@ -6,7 +6,7 @@ module fuge_data_scales
   implicit none
   private
 
-  public :: data_length, gap_less_motions, is_loaded, is_prescribed, largest_by_mode, largest_of_body
+  public :: data_length, free_resultant, is_loaded, is_prescribed, largest_by_mode, largest_of_body
 
 contains
 
@@ -14,7 +14,7 @@ contains
   !> motions, the plays, and what the loads displace.
   !>
   !> Of the points that take part: `arms` (m), the largest displacement by a unit of each motion, 1 for one translation;
-  !> `extremes`, the largest of the magnitude of a gap as from `gap_less_motions`, of this gap, of minus this gap, of
+  !> `extremes`, the largest of the magnitude of a gap less the prescribed motions, of this gap, of minus this gap, of
   !> the terms of A f, and of the plays that are finite, -huge without any. `total` > 0 is the sum of the magnitudes of
   !> the forces that make these terms; loads that are smaller displace less.
   pure function data_length(problem, arms, extremes, total) result(length)
@@ -26,8 +26,7 @@ contains
 
     load = 0.0_dp
     do j = 1, size(arms)
-      if (is_prescribed(problem, j)) cycle
-      if (arms(j) > 0.0_dp) load = max(load, abs(problem%resultant(j))/arms(j))
+      if (arms(j) > 0.0_dp) load = max(load, abs(free_resultant(problem, j))/arms(j))
     end do
     length = extremes(1)
     if (.not. allocated(problem%modes)) then
@@ -35,25 +34,6 @@ contains
     end if
     length = max(length, extremes(5)) + min(load/total, 1.0_dp)*extremes(4)
   end function data_length
-
-  !> The gap of point `k` less the displacements by the prescribed motions.
-  pure function gap_less_motions(problem, k) result(gap)
-    type(fuge_problem), intent(in) :: problem
-    integer, intent(in) :: k
-    real(dp) :: gap
-    integer :: j
-
-    gap = problem%gap(k)
-    if (.not. allocated(problem%prescribed)) return
-    do j = 1, problem%mode_count()
-      if (.not. is_prescribed(problem, j)) cycle
-      if (allocated(problem%modes)) then
-        gap = gap - problem%modes(k, j)*problem%motion(j)
-      else
-        gap = gap - problem%motion(j)
-      end if
-    end do
-  end function gap_less_motions
 
   !> For each mode, the largest magnitude of `values` (n) at the points that it moves, (m), for `largest_of_body`.
   !> Ranks, `sharing`, may share the points.
@@ -81,18 +61,17 @@ contains
     end do
   end function largest_of_body
 
-  !> Does a resultant other than zero act on point `k`, in some free mode that moves it?
-  pure function is_loaded(problem, k) result(loaded)
-    type(fuge_problem), intent(in) :: problem
+  !> Does a resultant other than zero act on point `k`, in some mode that moves it? `resultants` (m) as from
+  !> `free_resultant`.
+  pure function is_loaded(modes, resultants, k) result(loaded)
+    real(dp), intent(in) :: modes(:, :), resultants(:)
     integer, intent(in) :: k
     logical :: loaded
     integer :: j
 
     loaded = .false.
-    do j = 1, size(problem%modes, 2)
-      if (.not. abs(problem%modes(k, j)) > 0.0_dp) cycle
-      if (is_prescribed(problem, j)) cycle
-      loaded = abs(problem%resultant(j)) > 0.0_dp
+    do j = 1, size(resultants)
+      loaded = abs(modes(k, j)) > 0.0_dp .and. abs(resultants(j)) > 0.0_dp
       if (loaded) return
     end do
   end function is_loaded
@@ -104,7 +83,19 @@ contains
     logical :: prescribed
 
     prescribed = .false.
-    if (allocated(problem%prescribed)) prescribed = problem%prescribed(mode)
+    if (.not. allocated(problem%prescribed)) return
+    ! The caller's array may begin with another number than 1.
+    prescribed = problem%prescribed(lbound(problem%prescribed, 1) + mode - 1)
   end function is_prescribed
+
+  !> The resultant in this mode; 0 where its motion is prescribed.
+  pure function free_resultant(problem, mode) result(resultant)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: mode
+    real(dp) :: resultant
+
+    resultant = 0.0_dp
+    if (.not. is_prescribed(problem, mode)) resultant = problem%resultant(lbound(problem%resultant, 1) + mode - 1)
+  end function free_resultant
 
 end module fuge_data_scales

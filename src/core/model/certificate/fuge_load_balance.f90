@@ -1,8 +1,8 @@
 !> Equilibrium of the forces of a solution, equation (11), for its certificate.
 module fuge_load_balance
-  use fuge_data_scales, only: is_prescribed
+  use fuge_data_scales, only: free_resultant, is_prescribed
   use fuge_kinds, only: dp
-  use fuge_point_chunks, only: chunked_pass
+  use fuge_point_chunks, only: chunked_pass, CHUNK
   use fuge_point_space, only: point_space
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_relative_size, only: relative
@@ -16,12 +16,11 @@ module fuge_load_balance
   !> Forces below this fraction of the largest one of their body are judged beside that one where no load acts.
   real(dp), parameter, public :: BESIDE = 1.0e-2_dp
 
-  !> A pass over the forces and the modes. Found, (4 m): for each mode the sum of the terms of the resultant, that of
-  !> their magnitudes, the largest displacement of a point, and the largest force at a point that the mode moves.
+  !> A pass over the forces and the modes. Found, (4 m): as from `survey_modes`.
   type, extends(chunked_pass) :: mode_pass
     real(dp), pointer, contiguous :: modes(:, :) => null(), force(:) => null()
   contains
-    procedure :: do_chunk => survey_modes
+    procedure :: do_chunk
   end type mode_pass
 
 contains
@@ -36,91 +35,146 @@ contains
     real(dp), intent(in) :: forces(3)
     type(point_space), intent(in) :: space
     real(dp) :: violation
-    real(dp) :: spring
+
+    violation = 0.0_dp
+    if (allocated(problem%prescribed)) violation = motion_error(problem, solution%motion, problem%motion)
+    if (allocated(problem%modes)) then
+      violation = max(violation, imbalance_in_modes( &
+        problem, problem%modes, solution%force, solution%motion, forces(3), space))
+    else if (.not. is_prescribed(problem, 1)) then
+      violation = max(violation, imbalance_of_load(problem, solution%motion, forces))
+    end if
+  end function equilibrium_violation
+
+  !> How far `motion` (m) is from what the problem has `prescribed` (m), where it has.
+  pure function motion_error(problem, motion, prescribed) result(violation)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: motion(:), prescribed(:)
+    real(dp) :: violation
     integer :: j
 
     violation = 0.0_dp
-    do j = 1, problem%mode_count()
-      if (is_prescribed(problem, j)) violation = max(violation, &
-        relative(abs(solution%motion(j) - problem%motion(j)), abs(problem%motion(j))))
+    do j = 1, size(motion)
+      if (is_prescribed(problem, j)) violation = max(violation, relative(abs(motion(j) - prescribed(j)), &
+                                                                         abs(prescribed(j))))
     end do
-    if (allocated(problem%modes)) then
-      violation = max(violation, imbalance_in_modes(problem, solution, forces(3), space))
-    else if (.not. is_prescribed(problem, 1)) then
-      spring = problem%spring_load(1, solution%motion(1))
-      violation = max(violation, relative(abs((forces(1) - problem%resultant(1)) + spring), &
-                                          max(forces(2), abs(problem%resultant(1)), abs(spring))))
-    end if
-  end function equilibrium_violation
+  end function motion_error
+
+  !> Equation (11) for one free translation, `motion` (1). `forces` as above.
+  pure function imbalance_of_load(problem, motion, forces) result(violation)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: motion(:), forces(3)
+    real(dp) :: violation
+    real(dp) :: load, spring
+
+    load = free_resultant(problem, 1)
+    spring = problem%spring_load(1, motion(1))
+    violation = relative(abs((forces(1) - load) + spring), max(forces(2), abs(load), abs(spring)))
+  end function imbalance_of_load
 
   !> Equation (11) in the free modes of a problem that has modes, relative to the terms of the sum; without a resultant
   !> at least to a fraction of the largest force of the body, since along an axis without a load forces at tied points
   !> may be the rounding of those along the other axes.
-  function imbalance_in_modes(problem, solution, largest_force, space) result(violation)
-    type(fuge_problem), intent(in), target :: problem
-    type(fuge_solution), intent(in), target :: solution
-    real(dp), intent(in) :: largest_force
+  !>
+  !> `modes` (n, m), `force` (n) and `motion` (m) of the problem and the solution, whose own arrays may begin with another
+  !> number than 1.
+  function imbalance_in_modes(problem, modes, force, motion, largest_force, space) result(violation)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in), contiguous, target :: modes(:, :), force(:)
+    real(dp), intent(in) :: motion(:), largest_force
     type(point_space), intent(in) :: space
     real(dp) :: violation
-    type(mode_pass) :: pass
-    real(dp) :: sums(2*size(problem%modes, 2)), most(2*size(problem%modes, 2)), of_bodies(2*size(problem%modes, 2))
-    real(dp) :: own, largest, imbalance, spring, spring_force
+    real(dp) :: found(4*size(motion)), of_bodies(2*size(motion))
+    real(dp) :: own, largest, imbalance, spring_force
     integer :: j, m
 
     violation = 0.0_dp
-    m = size(problem%modes, 2)
-    pass%modes => problem%modes
-    pass%force => solution%force
-    call pass%run(size(solution%force), 4*m)
-    call pass%take(2*m + 1, sums, most)
-    call space%add(sums)
-    call space%raise(most)
-    spring_force = largest_spring_force(problem, solution%motion, most(:m))
-    call find_extremes_of_bodies(problem, most(m + 1:), of_bodies(:m), of_bodies(m + 1:))
+    m = size(motion)
+    call survey_all_modes(modes, force, found)
+    call space%add(found(:2*m))
+    call space%raise(found(2*m + 1:))
+    spring_force = largest_spring_force(problem, motion, found(2*m + 1:3*m))
+    call find_extremes_of_bodies(problem, modes, found(3*m + 1:), of_bodies(:m), of_bodies(m + 1:))
     call space%raise(of_bodies)
     do j = 1, m
       if (is_prescribed(problem, j)) cycle
-      associate (resultant => problem%resultant(j), arm => most(j))
+      associate (resultant => free_resultant(problem, j), spring => problem%spring_load(j, motion(j)), &
+                 arm => found(2*m + j))
         own = max(of_bodies(j), spring_force)
         largest = max(largest_force, spring_force)
         if (of_bodies(m + j) > 0.0_dp) largest = own
         largest = ROUNDINGS*epsilon(largest)*arm*largest
-        spring = problem%spring_load(j, solution%motion(j))
-        imbalance = max(abs((sums(j) - resultant) + spring) - largest, 0.0_dp)
+        imbalance = max(abs((found(j) - resultant) + spring) - largest, 0.0_dp)
         if (abs(resultant) > 0.0_dp) own = 0.0_dp
-        violation = max(violation, relative(imbalance, max(sums(m + j), abs(resultant), abs(spring), BESIDE*arm*own)))
+        violation = max(violation, relative(imbalance, max(found(m + j), abs(resultant), abs(spring), BESIDE*arm*own)))
       end associate
     end do
   end function imbalance_in_modes
 
+  !> `survey_modes` of all points, in chunks: `found` (4 m).
+  subroutine survey_all_modes(modes, force, found)
+    real(dp), intent(in), contiguous, target :: modes(:, :), force(:)
+    real(dp), intent(out), contiguous :: found(:)
+    type(mode_pass) :: pass
+    integer :: half
+
+    if (size(force) <= CHUNK) then
+      call survey_modes(modes, force, 1, size(force), found)
+    else
+      pass%modes => modes
+      pass%force => force
+      call pass%run(size(force), size(found))
+      half = size(found)/2
+      call pass%take(half + 1, found(:half), found(half + 1:))
+    end if
+  end subroutine survey_all_modes
+
   !> Chunk `k`, the points `first` .. `last`.
-  subroutine survey_modes(self, k, first, last)
+  subroutine do_chunk(self, k, first, last)
     class(mode_pass), intent(inout) :: self
     integer, intent(in) :: k, first, last
-    real(dp) :: arm, force, sums(2), term
+
+    call survey_modes(self%modes, self%force, first, last, self%found(:, k))
+  end subroutine do_chunk
+
+  !> `found` (4 m) of the points `first` .. `last`: for each of the `modes` (n, m) the sum of the terms of the resultant
+  !> of the `force` (n), that of their magnitudes, the largest displacement of a point, and the largest force at a point
+  !> that the mode moves; zero without points.
+  pure subroutine survey_modes(modes, force, first, last, found)
+    real(dp), intent(in), contiguous :: modes(:, :), force(:)
+    integer, intent(in) :: first, last
+    real(dp), intent(out), contiguous :: found(:)
+    real(dp) :: arm, largest, term, total, total_magnitude
     integer :: i, j, m
 
-    m = size(self%modes, 2)
+    m = size(modes, 2)
     do j = 1, m
-      sums = 0.0_dp
+      total = 0.0_dp
+      total_magnitude = 0.0_dp
       arm = 0.0_dp
-      force = 0.0_dp
+      largest = 0.0_dp
       do i = first, last
-        if (.not. abs(self%modes(i, j)) > 0.0_dp) cycle
-        if (abs(self%modes(i, j)) > arm) arm = abs(self%modes(i, j))
-        if (.not. abs(self%force(i)) > 0.0_dp) cycle
-        if (abs(self%force(i)) > force) force = abs(self%force(i))
-        term = self%modes(i, j)*self%force(i)
-        sums = sums + [term, abs(term)]
+        if (.not. abs(modes(i, j)) > 0.0_dp) cycle
+        if (abs(modes(i, j)) > arm) arm = abs(modes(i, j))
+        if (.not. abs(force(i)) > 0.0_dp) cycle
+        if (abs(force(i)) > largest) largest = abs(force(i))
+        term = modes(i, j)*force(i)
+        total = total + term
+        total_magnitude = total_magnitude + abs(term)
       end do
-      self%found([j, m + j, 2*m + j, 3*m + j], k) = [sums, arm, force]
+      found(j) = total
+      found(m + j) = total_magnitude
+      found(2*m + j) = arm
+      found(3*m + j) = largest
     end do
   end subroutine survey_modes
 
   !> Of the points of this rank that a mode moves, the `largest` force (m) of their bodies, -huge if there are no such
-  !> points, and 1 if a load acts on any of them, else 0: `loaded` (m). `by_mode` (m) are the largest forces.
-  subroutine find_extremes_of_bodies(problem, by_mode, largest, loaded)
+  !> points, and 1 if a load acts on any of them, else 0: `loaded` (m). `modes` (n, m); `by_mode` (m) are the largest
+  !> forces.
+  subroutine find_extremes_of_bodies(problem, modes, by_mode, largest, loaded)
     type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in), contiguous :: modes(:, :)
     real(dp), intent(in) :: by_mode(:)
     real(dp), intent(out) :: largest(:), loaded(:)
     integer :: i, j
@@ -129,10 +183,9 @@ contains
     loaded = 0.0_dp
     do j = 1, size(by_mode)
       do i = 1, size(by_mode)
-        if (.not. move_a_point_together(problem%modes(:, i), problem%modes(:, j))) cycle
+        if (.not. move_a_point_together(modes(:, i), modes(:, j))) cycle
         largest(j) = max(largest(j), by_mode(i))
-        if (is_prescribed(problem, i)) cycle
-        if (abs(problem%resultant(i)) > 0.0_dp) loaded(j) = 1.0_dp
+        if (abs(free_resultant(problem, i)) > 0.0_dp) loaded(j) = 1.0_dp
       end do
     end do
   end subroutine find_extremes_of_bodies
