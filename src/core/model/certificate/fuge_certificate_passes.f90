@@ -18,11 +18,12 @@ module fuge_certificate_passes
   !> Points of which the lengths are computed at once, into arrays that stay in the cache.
   integer, parameter, public :: TILE = 128
 
-  !> What the passes read, with arrays of (n): pointers to what belongs to the caller. His arrays may begin with another
-  !> number than 1, which is why no pass reads them through the problem.
+  !> What the passes read, with arrays of (n): pointers to what belongs to the caller. The caller's arrays may begin with
+  !> another number than 1, these begin with 1: no pass reads an array through the problem.
   type, extends(chunked_pass), public :: certificate_pass
     type(fuge_problem), pointer :: problem => null()
-    !> Of the problem and of the solution; those without a default are always there, `modes` are (n, m), `motion` (m).
+    !> Of the solution and of the problem, those of the problem but for the gap where it has them; `motion` is (m),
+    !> `modes` are (n, m).
     real(dp), pointer, contiguous :: gap(:) => null(), force(:) => null(), gap_under_load(:) => null()
     real(dp), pointer, contiguous :: motion(:) => null(), modes(:, :) => null()
     real(dp), pointer, contiguous :: gap_upper(:) => null(), compliance(:) => null()
@@ -299,9 +300,9 @@ contains
     end associate
   end subroutine add_rounding_of_bodies
 
-  !> The `work` of the forces on the displacements in the units of which `inverse_unit` has the inverse; `shares`, the sum
-  !> of the forces of points that are not excluded, as fractions of the largest one, if they are wanted; the number of
-  !> the contact point with the least magnitude, or with the least gap where there are no forces, 0 if there is none.
+  !> The `work` of the forces on the displacements in the units of which `inverse_unit` has the inverse; `shares`, the
+  !> sum of the forces of points that are not excluded, as fractions of the largest one, if they are wanted; the number
+  !> of the contact point with the least magnitude, or with the least gap where there are no forces, 0 if there is none.
   subroutine find_reference(self, work, shares, reference)
     class(certificate_pass), intent(inout) :: self
     real(dp), intent(out) :: work, shares

@@ -76,8 +76,8 @@ contains
   !> at least to a fraction of the largest force of the body, since along an axis without a load forces at tied points
   !> may be the rounding of those along the other axes.
   !>
-  !> `modes` (n, m), `force` (n) and `motion` (m) of the problem and the solution, whose own arrays may begin with another
-  !> number than 1.
+  !> `modes` (n, m), `force` (n) and `motion` (m) of the problem and the solution, whose own arrays may begin with
+  !> another number than 1.
   function imbalance_in_modes(problem, modes, force, motion, largest_force, space) result(violation)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in), contiguous, target :: modes(:, :), force(:)
