@@ -18,8 +18,8 @@ module fuge_certificate_passes
   !> Points of which the lengths are computed at once, into arrays that stay in the cache.
   integer, parameter, public :: TILE = 128
 
-  !> What the passes read, with arrays of (n): pointers to what belongs to the caller, whose arrays may begin with another
-  !> number than 1. These begin with 1, so that no pass reads an array through the problem.
+  !> What the passes read, with arrays of (n): pointers to what belongs to the caller, whose arrays may begin with
+  !> another number than 1. These begin with 1, so that no pass reads an array through the problem.
   type, extends(chunked_pass), public :: certificate_pass
     type(fuge_problem), pointer :: problem => null()
     !> Of the solution and of the problem, those of the problem but for the gap where it has them; `motion` is (m),
