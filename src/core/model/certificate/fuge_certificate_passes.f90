@@ -95,21 +95,23 @@ contains
     class(certificate_pass), intent(inout) :: self
     type(fuge_problem), intent(in), target :: problem
     type(fuge_solution), intent(in), target :: solution
-    integer :: j
+    integer :: j, n
 
+    n = size(problem%gap)
     self%problem => problem
-    self%gap(1:) => problem%gap
-    self%force(1:) => solution%force
-    self%gap_under_load(1:) => solution%gap
-    self%motion(1:) => solution%motion
-    if (allocated(problem%excluded)) self%excluded(1:) => problem%excluded
-    if (allocated(problem%gap_upper)) self%gap_upper(1:) => problem%gap_upper
-    if (allocated(problem%compliance)) self%compliance(1:) => problem%compliance
-    if (allocated(problem%limit)) self%limit(1:) => problem%limit
-    if (allocated(problem%limit_upper)) self%limit_upper(1:) => problem%limit_upper
+    ! With both bounds: gfortran 12 copies the distance of the values else, which reshape has not always set.
+    self%gap(1:n) => problem%gap
+    self%force(1:n) => solution%force
+    self%gap_under_load(1:n) => solution%gap
+    self%motion(1:size(solution%motion)) => solution%motion
+    if (allocated(problem%excluded)) self%excluded(1:n) => problem%excluded
+    if (allocated(problem%gap_upper)) self%gap_upper(1:n) => problem%gap_upper
+    if (allocated(problem%compliance)) self%compliance(1:n) => problem%compliance
+    if (allocated(problem%limit)) self%limit(1:n) => problem%limit
+    if (allocated(problem%limit_upper)) self%limit_upper(1:n) => problem%limit_upper
     if (allocated(problem%prescribed)) self%prescribed_motion = problem%prescribed_motion()
     if (.not. allocated(problem%modes)) return
-    self%modes(1:, 1:) => problem%modes
+    self%modes(1:n, 1:size(problem%modes, 2)) => problem%modes
     self%resultants = [(free_resultant(problem, j), j=1, size(self%modes, 2))]
   end subroutine point_to
 
