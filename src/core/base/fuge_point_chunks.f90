@@ -23,6 +23,7 @@ module fuge_point_chunks
     procedure :: run
     procedure :: total
     procedure :: largest
+    procedure :: take
   end type chunked_pass
 
   abstract interface
@@ -96,5 +97,28 @@ contains
 
     largest = maxval(self%found(number, :))
   end function largest
+
+  !> The sums of the first numbers that the chunks have found, and the largest of those from number `second` on.
+  pure subroutine take(self, second, sums, largest)
+    class(chunked_pass), intent(in) :: self
+    integer, intent(in) :: second
+    real(dp), intent(out), contiguous :: sums(:), largest(:)
+    integer :: j, k
+
+    do j = 1, size(sums)
+      sums(j) = self%found(j, 1)
+    end do
+    do j = 1, size(largest)
+      largest(j) = self%found(second + j - 1, 1)
+    end do
+    do k = 2, size(self%found, 2)
+      do j = 1, size(sums)
+        sums(j) = sums(j) + self%found(j, k)
+      end do
+      do j = 1, size(largest)
+        largest(j) = max(largest(j), self%found(second + j - 1, k))
+      end do
+    end do
+  end subroutine take
 
 end module fuge_point_chunks

@@ -1,11 +1,10 @@
 !> Products with an operator and with its preconditioner, counted and checked. The iterative
 !> engine and the certificate form theirs here, so that a failure has one message everywhere.
 module fuge_operator_products
-  use fuge_input_checks, only: check_finite, is_finite_everywhere
+  use fuge_input_checks, only: check_finite, is_finite_in_chunks
   use fuge_kinds, only: dp, sp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_point_chunks, only: chunk_count, chunked_pass
   use fuge_point_space, only: point_space
   use fuge_status, only: composed_message, fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_CALLBACK, &
     FUGE_ERR_OVERFLOW, LOWEST_STATUS
@@ -13,13 +12,6 @@ module fuge_operator_products
   private
 
   public :: multiply, multiply_single, multiply_with_magnitude, precondition, precondition_single
-
-  !> Looks for numbers that are not finite. Found: 1 where there are some.
-  type, extends(chunked_pass) :: finite_pass
-    real(dp), pointer, contiguous :: values(:) => null()
-  contains
-    procedure :: do_chunk => look_for_infinite
-  end type finite_pass
 
 contains
 
@@ -81,39 +73,10 @@ contains
     info%products = info%products + 1
     if (status /= FUGE_DONE) then
       call report_status(status, 'product', info%products, info)
-    else if (.not. are_finite(displacement)) then
+    else if (.not. is_finite_in_chunks(displacement)) then
       call report_not_finite(force, 'force', displacement, 'displacement', 'product', info%products, info)
     end if
   end subroutine judge_product
-
-  !> Are all values (n) finite? Several chunks are shared by threads.
-  function are_finite(values)
-    real(dp), intent(in), contiguous :: values(:)
-    logical :: are_finite
-
-    if (chunk_count(size(values)) == 1) then
-      are_finite = is_finite_everywhere(values)
-    else
-      are_finite = are_finite_in_chunks(values)
-    end if
-  end function are_finite
-
-  function are_finite_in_chunks(values) result(finite)
-    real(dp), intent(in), contiguous, target :: values(:)
-    logical :: finite
-    type(finite_pass) :: pass
-
-    pass%values => values
-    call pass%run(size(values), 1)
-    finite = .not. pass%largest(1) > 0.0_dp
-  end function are_finite_in_chunks
-
-  subroutine look_for_infinite(self, k, first, last)
-    class(finite_pass), intent(inout) :: self
-    integer, intent(in) :: k, first, last
-
-    if (.not. is_finite_everywhere(self%values(first:last))) self%found(1, k) = 1.0_dp
-  end subroutine look_for_infinite
 
   !> f = M u by the preconditioner of the operator, which must have one; adds 1 to
   !> info%preconditionings.
@@ -131,7 +94,7 @@ contains
     info%preconditionings = info%preconditionings + 1
     if (status /= FUGE_DONE) then
       call report_status(status, 'preconditioner', info%preconditionings, info)
-    else if (.not. are_finite(force)) then
+    else if (.not. is_finite_in_chunks(force)) then
       call report_not_finite(displacement, 'displacement', force, 'force', 'preconditioner', info%preconditionings, &
                              info)
     end if

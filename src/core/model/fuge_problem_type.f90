@@ -180,9 +180,10 @@ contains
 
     load = 0.0_dp
     if (.not. allocated(self%motion_stiffness)) return
-    load = self%motion_stiffness(j)*motion
+    ! The caller's arrays may begin with another number than 1.
+    load = self%motion_stiffness(lbound(self%motion_stiffness, 1) + j - 1)*motion
     if (.not. allocated(self%prescribed)) return
-    if (self%prescribed(j)) load = 0.0_dp
+    if (self%prescribed(lbound(self%prescribed, 1) + j - 1)) load = 0.0_dp
   end function spring_load
 
   !> What the springs on the motions `motion` (m) take of the resultants, S q, (m); zero where prescribed.

@@ -5,6 +5,7 @@ module fuge_certified_solution
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_point_chunks, only: chunked_pass, CHUNK
   use fuge_point_space, only: point_space
   use fuge_rim_contact, only: remark_contact_at_rim
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED
@@ -16,6 +17,13 @@ module fuge_certified_solution
   !> Above this estimate of the relative error of the forces, and above this multiple of the tolerance, a solution comes
   !> with a warning: a loose tolerance allows errors of the forces.
   real(dp), parameter :: MOST_FORCE_ERROR = 1.0e-3_dp, MOST_OF_TOLERANCE = 1.0e3_dp
+
+  !> A pass over the forces. Found: the number of those that are not zero.
+  type, extends(chunked_pass) :: contact_count
+    real(dp), pointer, contiguous :: force(:) => null()
+  contains
+    procedure :: do_chunk => count_chunk
+  end type contact_count
 
 contains
 
@@ -33,7 +41,7 @@ contains
     call find_violation(operator, problem, solution, violation, info, enough=tolerance)
     if (info%failed()) return
     space = operator%ranks()
-    info%contacts = space%total_count(count(abs(solution%force) > 0.0_dp))
+    info%contacts = space%total_count(count_contacts(solution%force))
     info%residual = violation%worst()
     if (violation%unresolved > tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'the forces reach ' &
@@ -52,5 +60,28 @@ contains
       call remark_contact_at_rim(operator, solution%force, info)
     end if
   end subroutine certify
+
+  !> How many of the forces (n) are not zero.
+  function count_contacts(force) result(contacts)
+    real(dp), intent(in), contiguous, target :: force(:)
+    integer :: contacts
+    type(contact_count) :: pass
+
+    if (size(force) <= CHUNK) then
+      contacts = count(abs(force) > 0.0_dp)
+      return
+    end if
+    pass%force => force
+    call pass%run(size(force), 1)
+    contacts = nint(pass%total(1))
+  end function count_contacts
+
+  !> Chunk `k`, the points `first` .. `last`.
+  subroutine count_chunk(self, k, first, last)
+    class(contact_count), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+
+    self%found(1, k) = real(count(abs(self%force(first:last)) > 0.0_dp), dp)
+  end subroutine count_chunk
 
 end module fuge_certified_solution
