@@ -5,6 +5,7 @@ module fuge_single_preconditioner
   use fuge_kinds, only: dp
   use fuge_operator_products, only: precondition_single
   use fuge_operator_type, only: fuge_operator
+  use fuge_set_extension, only: set_extension
   use fuge_single_passes, only: center_residuals, mark_contact, point_pass, sum_energy, sum_uniform, sum_with_uniform
   use fuge_single_state, only: single_state
   use fuge_status, only: fuge_info
@@ -18,6 +19,8 @@ module fuge_single_preconditioner
   type, public :: single_preconditioner
     !> Points that have changed since state%uniform was computed, at most; negative: it never was.
     integer, private :: changed = -1
+    !> Gives residuals to open points too, and forces of these to the set.
+    type(set_extension), private :: extension
     !> The sum of `uniform` over the present set.
     real(dp), private :: total = 1.0_dp
   contains
@@ -49,6 +52,8 @@ contains
 
     points = real(iterate%segments%points, dp)
     if (self%changed == 0) return
+    call self%extension%set(operator%grid(), iterate%contact, info)
+    if (info%failed()) return
     if (self%changed > 0 .and. real(self%changed, dp) <= CLOSE*points &
         .and. points <= SMALL*real(size(scene%gap), dp)) then
       call find_total(self, scene, state, iterate)
@@ -56,8 +61,10 @@ contains
     end if
     call state%point_to(scene, iterate, pass)
     call pass%go(mark_contact, 0)
+    call self%extension%extend(state%direction)
     call precondition_single(operator, state%direction, state%uniform, info)
     if (info%failed()) return
+    call self%extension%collect(state%uniform)
     self%changed = 0
     call find_total(self, scene, state, iterate)
   end subroutine set
@@ -79,7 +86,7 @@ contains
   !> it the preconditioner is symmetric, whatever set `uniform` was computed for (doc/theory.md). Errors: those of the
   !> operator.
   subroutine apply(self, operator, scene, state, iterate, factor, energy, info)
-    class(single_preconditioner), intent(in) :: self
+    class(single_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
     type(single_state), intent(inout) :: state
@@ -96,8 +103,10 @@ contains
       pass%shift = pass%total(1)/self%total
       call pass%go(center_residuals, 0)
     end if
+    call self%extension%extend(state%residual)
     call precondition_single(operator, state%residual, state%work, info)
     if (info%failed()) return
+    call self%extension%collect(state%work)
     call pass%go(sum_energy, 2)
     factor = pass%total(2)/self%total
     energy = pass%total(1)
