@@ -96,7 +96,8 @@ static fuge_solver *solver_of(const fuge_operator *op, const double *gap) {
 }
 
 /* The same status, and with the accuracy 0 the same counts and every bit of the forces.  Areas of the library have
- * products in single precision, which a callback has not: their forces are the same to the tolerance. */
+ * products in single precision, which a callback has not: their forces are the same to the tolerance, and as residuals
+ * are extended to open points there, they need hardly more products. */
 static void check_same(int n, double accuracy, fuge_solver *first, fuge_solver *second) {
   double *force = malloc(n * sizeof *force), *expected = malloc(n * sizeof *force), motion[2], expected_motion[2];
   fuge_info info, expected_info;
@@ -106,8 +107,12 @@ static void check_same(int n, double accuracy, fuge_solver *first, fuge_solver *
   CHECK_DONE(fuge_get_info(first, &info));
   CHECK_DONE(fuge_get_info(second, &expected_info));
   const int counts = accuracy > 0.0 ? 8 : 0;
-  CHECK(abs(info.products - expected_info.products) <= counts);
-  CHECK(abs(info.preconditionings - expected_info.preconditionings) <= counts);
+  CHECK(expected_info.products - info.products <= counts);
+  CHECK(expected_info.preconditionings - info.preconditionings <= counts);
+  if (!counts) {
+    CHECK(info.products == expected_info.products);
+    CHECK(info.preconditionings == expected_info.preconditionings);
+  }
   CHECK(abs(info.iterations - expected_info.iterations) <= counts);
   if (status >= 0) {
     CHECK_DONE(fuge_get_motion(first, motion));

@@ -42,7 +42,7 @@ contains
   !> those of run_projected_gradients, the state and `lost`. Errors: those of the operator, FUGE_ERR_MEMORY.
   subroutine run_single_gradients(operator, preconditioner, scene, tolerance, to_tolerance, state, iterate, lost, info)
     class(fuge_operator), intent(in) :: operator
-    type(single_preconditioner), intent(in) :: preconditioner
+    type(single_preconditioner), intent(inout) :: preconditioner
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: tolerance
     logical, intent(in) :: to_tolerance
@@ -129,7 +129,7 @@ contains
   !> for their error. Errors: those of the operator.
   subroutine estimate_compliance(operator, preconditioner, scene, state, iterate, info)
     class(fuge_operator), intent(in) :: operator
-    type(single_preconditioner), intent(in) :: preconditioner
+    type(single_preconditioner), intent(inout) :: preconditioner
     type(contact_scene), intent(in) :: scene
     type(single_state), intent(inout) :: state
     type(contact_iterate), intent(inout) :: iterate

@@ -259,12 +259,18 @@ contains
     if (last >= first) pass%found(1, k) = sum_over_contact(pass, k, pass%uniform)
   end subroutine sum_uniform
 
-  !> Found: the inner product of residuals and `uniform`.
+  !> Found: the inner product of residuals and `uniform` over the contact.
   subroutine sum_with_uniform(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
+    integer :: j
 
-    pass%found(1, k) = inner_product(last - first + 1, pass%residual(first:last), pass%uniform(first:last))
+    if (last < first) return
+    do j = pass%segments%before(k) + 1, pass%segments%before(k + 1)
+      associate (a => pass%segments%first(j), b => pass%segments%last(j))
+        pass%found(1, k) = pass%found(1, k) + inner_product(b - a + 1, pass%residual(a:b), pass%uniform(a:b))
+      end associate
+    end do
   end subroutine sum_with_uniform
 
   !> Subtract `shift` from the residuals in the contact.

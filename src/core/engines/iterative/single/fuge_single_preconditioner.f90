@@ -5,6 +5,7 @@ module fuge_single_preconditioner
   use fuge_kinds, only: dp, sp
   use fuge_operator_products, only: precondition_single
   use fuge_operator_type, only: fuge_operator
+  use fuge_set_extension, only: set_extension
   use fuge_single_passes, only: center_residuals, mark_contact, point_pass, sum_energy, sum_uniform, sum_with_uniform
   use fuge_single_state, only: single_state
   use fuge_status, only: fuge_info
@@ -18,6 +19,8 @@ module fuge_single_preconditioner
   type, public :: single_preconditioner
     !> Points that have changed since state%uniform was computed, at most; negative: it never was.
     integer, private :: changed = -1
+    !> Gives residuals to open points too, and forces of these to the set.
+    type(set_extension), private :: extension
     !> The sum of `uniform` over the present set.
     real(dp), private :: total = 1.0_dp
   contains
@@ -47,11 +50,14 @@ contains
     type(point_pass) :: pass
     real(dp) :: points
 
-    if (iterate%prescribed .and. self%changed < 0) then
-      state%uniform = 0.0_sp
+    if (self%changed == 0) return
+    call self%extension%set(operator%grid(), iterate%contact, info)
+    if (info%failed()) return
+    if (iterate%prescribed) then
+      if (self%changed < 0) state%uniform = 0.0_sp
       self%changed = 0
+      return
     end if
-    if (self%changed == 0 .or. iterate%prescribed) return
     points = real(iterate%segments%points, dp)
     if (self%changed > 0 .and. real(self%changed, dp) <= CLOSE*points &
         .and. points <= SMALL*real(size(scene%gap), dp)) then
@@ -60,8 +66,10 @@ contains
     end if
     call state%point_to(scene, iterate, pass)
     call pass%go(mark_contact, 0)
+    call self%extension%extend(state%direction)
     call precondition_single(operator, state%direction, state%uniform, info)
     if (info%failed()) return
+    call self%extension%collect(state%uniform)
     self%changed = 0
     call find_total(self, scene, state, iterate)
   end subroutine set
@@ -79,11 +87,11 @@ contains
   end subroutine find_total
 
   !> state%work less `factor` times state%uniform: forces on the contact whose displacements are close to the residuals
-  !> and whose sum is zero unless the motion is prescribed; then `factor` is zero. `energy`: their inner product with the residuals. With the same projection before and after
-  !> it the preconditioner is symmetric, whatever set `uniform` was computed for (doc/theory.md). Errors: those of the
-  !> operator.
+  !> and whose sum is zero; where the motion is prescribed the forces are state%work. `energy`: their inner product with
+  !> the residuals. With the same projection before and after it the preconditioner is symmetric, whatever set `uniform`
+  !> was computed for (doc/theory.md). Errors: those of the operator.
   subroutine apply(self, operator, scene, state, iterate, factor, energy, info)
-    class(single_preconditioner), intent(in) :: self
+    class(single_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
     type(single_state), intent(inout) :: state
@@ -95,13 +103,15 @@ contains
     factor = 0.0_dp
     energy = 0.0_dp
     call state%point_to(scene, iterate, pass)
-    if (self%changed > 0 .and. .not. iterate%prescribed) then
+    if (self%changed > 0) then
       call pass%go(sum_with_uniform, 1)
       pass%shift = pass%total(1)/self%total
       call pass%go(center_residuals, 0)
     end if
+    call self%extension%extend(state%residual)
     call precondition_single(operator, state%residual, state%work, info)
     if (info%failed()) return
+    call self%extension%collect(state%work)
     call pass%go(sum_energy, 2)
     energy = pass%total(1)
     if (iterate%prescribed) return

@@ -207,8 +207,7 @@ contains
     if (lost .or. info%failed()) return
     info%iterations = info%iterations + 1
     if (.not. settings%coarse_grid) call note_least_compliance(iterate)
-    if (iterate%converged .and. settings%tolerance >= LOOSE &
-        .and. .not. (settings%coarse_grid .or. settings%prepared)) then
+    if (iterate%converged .and. .not. (settings%coarse_grid .or. settings%prepared)) then
       if (.not. iterate%least_compliance > 0.0_dp) call estimate_compliance(operator, preconditioner, scene, state, &
                                                                             iterate, info)
       if (info%failed()) return
