@@ -4,10 +4,12 @@
 !> Restricted to one contact segment, the operator's preconditioner is the inverse of the
 !> restricted operator except in a few directions. Restricted to many segments it overestimates
 !> the stiffness of forces that vary from segment to segment but little within one: to it they are
-!> short waves, in truth a smooth load. So there is a hierarchy of levels (fuge_preconditioner_levels).
+!> short waves, in truth a smooth load. So there is a hierarchy of levels (fuge_preconditioner_levels) on a line, and on
+!> an area residuals are extended to open points (fuge_extended_preconditioner).
 module fuge_contact_preconditioner
   use fuge_contact_segments, only: contact_segments, dot_over, max_abs_over, subtract_and_dot_over, &
     sum_over
+  use fuge_extended_preconditioner, only: extended_preconditioner, has_extension
   use fuge_kinds, only: dp
   use fuge_mode_projection, only: mode_projection
   use fuge_number_text, only: text
@@ -39,6 +41,9 @@ module fuge_contact_preconditioner
     !> Created for the first set with many segments.
     type(preconditioner_level), allocatable, private :: levels(:)
     type(level_force), allocatable, private :: forces(:)
+    !> On areas, for the present set.
+    type(extended_preconditioner), private :: extended
+    logical, private :: is_extended = .false.
     !> The contact set for which `uniform` was computed, (n).
     logical, allocatable, private :: contact(:)
     !> Number of levels used for this set; 0 where the operator has no preconditioner.
@@ -108,6 +113,8 @@ contains
     end if
     segments%space = space
     call segments%find(contact, info)
+    self%is_extended = has_extension(operator)
+    if (self%is_extended .and. .not. info%failed()) call self%extended%set(operator, contact, info)
     if (self%depth == 1 .and. self%has_uniform .and. zero_sum .and. .not. info%failed()) then
       call keep_uniform(self, segments, contact)
       if (self%is_close) return
@@ -117,7 +124,7 @@ contains
     self%has_uniform = zero_sum
     if (info%failed() .or. .not. zero_sum) return
     if (self%depth == 1) then
-      call precondition_unit(operator, contact, self%uniform, info)
+      call precondition_unit(self, operator, contact, info)
     else
       self%levels(1)%residual = self%levels(1)%weight
       call apply_levels(self%levels(:self%depth), self%forces, operator, self%uniform, self%coarse_share, info)
@@ -210,7 +217,7 @@ contains
     energy = 0.0_dp
     if (self%is_close .and. zero_sum) then
       call center(self, segments, residual)
-      call precondition(operator, self%centred, force, info)
+      call precondition_on_set(self, operator, self%centred, force, info)
     else
       call apply_unprojected(self, operator, segments, residual, force, info)
     end if
@@ -268,7 +275,7 @@ contains
     integer :: i
 
     if (self%depth == 1) then
-      call precondition(operator, residual, force, info)
+      call precondition_on_set(self, operator, residual, force, info)
     else if (self%depth > 1) then
       call copy_values(residual, self%levels(1)%residual)
       call apply_levels(self%levels(:self%depth), self%forces, operator, force, self%coarse_share, info)
@@ -392,11 +399,11 @@ contains
     end do
   end subroutine find_levels
 
-  !> The operator's preconditioner applied to 1 on the contact set and 0 elsewhere.
-  subroutine precondition_unit(operator, contact, force, info)
+  !> `uniform`: the preconditioner applied to 1 on the contact set and 0 elsewhere.
+  subroutine precondition_unit(self, operator, contact, info)
+    class(contact_preconditioner), intent(inout), target :: self
     class(fuge_operator), intent(in) :: operator
     logical, intent(in), contiguous, target :: contact(:)
-    real(dp), intent(inout), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
     type(value_pass) :: pass
     type(point_space) :: space
@@ -411,7 +418,22 @@ contains
     pass%contact => contact
     pass%values => unit
     call pass%run(size(unit), 0)
-    call precondition(operator, unit, force, info)
+    call precondition_on_set(self, operator, unit, self%uniform, info)
   end subroutine precondition_unit
+
+  !> The operator's preconditioner on the present set: `residual` (n) is zero off the set, `force` (n) undefined there.
+  subroutine precondition_on_set(self, operator, residual, force, info)
+    class(contact_preconditioner), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in), contiguous :: residual(:)
+    real(dp), intent(inout), contiguous :: force(:)
+    type(fuge_info), intent(inout) :: info
+
+    if (self%is_extended) then
+      call self%extended%apply(operator, residual, force, info)
+    else
+      call precondition(operator, residual, force, info)
+    end if
+  end subroutine precondition_on_set
 
 end module fuge_contact_preconditioner
