@@ -3,7 +3,8 @@ program general
   use fuge, dp => fuge_dp
   use fuge_mpi, only: fuge_mpi_halfplane_operator, fuge_mpi_halfspace_operator
   use mpi_f08
-  use rank_checks, only: begin_checks, check_solution, end_checks, expect, gather, my_rank
+  use lone_rank, only: lone_surface
+  use rank_checks, only: are_alone, begin_checks, check_solution, end_checks, expect, gather, my_rank
   implicit none
 
   ! What a problem has.
@@ -76,7 +77,7 @@ contains
     integer, intent(in) :: parts
     integer, parameter :: NX = 205, NY = 190
     type(fuge_mpi_halfspace_operator) :: shared
-    type(fuge_halfspace_operator) :: whole
+    type(lone_surface) :: whole
     type(fuge_problem) :: problem, whole_problem
     type(fuge_info) :: info
     integer :: rows(2)
@@ -86,7 +87,8 @@ contains
     rows = shared%own_rows()
     call fill(NX, NY, NX*(rows(1) - 1) + 1, shared%points(), parts, problem)
     if (my_rank() == 0) then
-      call whole%set(NX, NY, 1.0_dp/NX, 1.0_dp/NX, 1.0_dp, info)
+      whole%extends = are_alone()
+      call whole%surface%set(NX, NY, 1.0_dp/NX, 1.0_dp/NX, 1.0_dp, info)
       call fill(NX, NY, 1, NX*NY, parts, whole_problem)
     end if
     ! The resultants about a far point have lost digits, and so have the motions.

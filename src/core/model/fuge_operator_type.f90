@@ -30,6 +30,8 @@ module fuge_operator_type
     procedure :: has_preconditioner => without_preconditioner
     !> f = M u, with M symmetric, positive definite and close to the inverse of A.
     procedure :: precondition => copy_displacement
+    !> Are displacements of open points of an area, continued from those of a contact set, good for the preconditioner?
+    procedure :: extends_sets => extends_on_areas
     !> Is there a preconditioner of A on a bed?
     procedure :: has_preconditioner_on_bed => without_bed
     !> f = M u, with M symmetric, positive definite and close to the inverse of A + compliance.
@@ -100,6 +102,14 @@ contains
     force = displacement
     status = merge(FUGE_DONE, FUGE_ERR_SIZE, self%points() == size(displacement))
   end subroutine copy_displacement
+
+  !> True by default on the cells of an area: M is close to the inverse of A for all of them together.
+  function extends_on_areas(self) result(extends)
+    class(fuge_operator), intent(in) :: self
+    logical :: extends
+
+    extends = all(self%grid() > 1)
+  end function extends_on_areas
 
   !> False by default: compliances of the points are then not part of the preconditioner.
   function without_bed(self) result(preconditioned)

@@ -9,7 +9,7 @@
 module fuge_contact_preconditioner
   use fuge_contact_segments, only: contact_segments, dot_over, max_abs_over, subtract_and_dot_over, &
     sum_over
-  use fuge_extended_preconditioner, only: extended_preconditioner, has_extension
+  use fuge_extended_preconditioner, only: extended_preconditioner
   use fuge_kinds, only: dp
   use fuge_mode_projection, only: mode_projection
   use fuge_number_text, only: text
@@ -113,7 +113,8 @@ contains
     end if
     segments%space = space
     call segments%find(contact, info)
-    self%is_extended = has_extension(operator)
+    self%is_extended = space%is_alone()
+    if (self%is_extended) self%is_extended = operator%extends_sets()
     if (self%is_extended .and. .not. info%failed()) call self%extended%set(operator, contact, info)
     if (self%depth == 1 .and. self%has_uniform .and. zero_sum .and. .not. info%failed()) then
       call keep_uniform(self, segments, contact)

@@ -1,10 +1,8 @@
-!> The operator's preconditioner on a contact set of an area, in single precision: residuals are extended to open points
-!> before it, and what it gives there is collected on the set (fuge_set_extension).
-!>
-!> Conjugate gradients in double precision take it for exact: its errors are 1e-7 of its largest force.
+!> The operator's preconditioner on a contact set of an area: residuals are extended to open points before it, and what
+!> it gives there is collected on the set (fuge_set_extension), in single precision, because neither has to be exact.
 module fuge_extended_preconditioner
   use fuge_kinds, only: dp, sp
-  use fuge_operator_products, only: precondition_single
+  use fuge_operator_products, only: precondition
   use fuge_operator_type, only: fuge_operator
   use fuge_point_chunks, only: chunked_pass
   use fuge_set_extension, only: set_extension
@@ -12,40 +10,41 @@ module fuge_extended_preconditioner
   implicit none
   private
 
-  public :: has_extension
-
   !> Set it for a contact set, then apply it any number of times.
   type, public :: extended_preconditioner
     type(set_extension), private :: extension
-    !> Residuals and forces, (n).
-    real(sp), allocatable, private :: residual(:), force(:)
+    !> Extended residuals; values in single precision; (n).
+    real(dp), allocatable, private :: residual(:)
+    real(sp), allocatable, private :: values(:)
   contains
     procedure :: set
     procedure :: apply
   end type extended_preconditioner
 
-  !> Finds the largest magnitude of `exact`, rounds `factor` times it to `rounded`, or the other way round.
-  type, extends(chunked_pass) :: rounding_pass
-    real(dp), pointer, contiguous :: exact(:) => null()
-    real(sp), pointer, contiguous :: rounded(:) => null()
-    real(dp) :: factor = 1.0_dp
-    logical :: backwards = .false.
+  !> Passes over the points, whose `cover` is 1 on the set and 0 off it.
+  type, extends(chunked_pass) :: extension_pass
+    real(dp), pointer, contiguous :: source(:) => null(), target(:) => null()
+    real(sp), pointer, contiguous :: cover(:) => null(), values(:) => null()
+    !> The unit of `values`.
+    real(dp) :: unit = 1.0_dp
+    procedure(chunk_operation), pointer, nopass :: operation => null()
   contains
-    procedure :: do_chunk => round_chunk
-  end type rounding_pass
+    procedure :: do_chunk
+    procedure :: go
+  end type extension_pass
+
+  abstract interface
+    !> Chunk `k`, the points `first` .. `last`.
+    subroutine chunk_operation(pass, k, first, last)
+      import :: extension_pass
+      class(extension_pass), intent(inout) :: pass
+      integer, intent(in) :: k, first, last
+    end subroutine chunk_operation
+  end interface
 
 contains
 
-  !> Has the operator the cells of an area, and a preconditioner in single precision?
-  function has_extension(operator) result(has)
-    class(fuge_operator), intent(in) :: operator
-    logical :: has
-
-    has = operator%has_single()
-    if (has) has = all(operator%grid() > 1)
-  end function has_extension
-
-  !> Prepare for the set `contact` (n). Error: FUGE_ERR_MEMORY.
+  !> Prepare for the set `contact` (n) of the cells of an area. Error: FUGE_ERR_MEMORY.
   subroutine set(self, operator, contact, info)
     class(extended_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
@@ -54,7 +53,7 @@ contains
     integer :: stat
 
     stat = 0
-    if (.not. allocated(self%residual)) allocate (self%residual(size(contact)), self%force(size(contact)), stat=stat)
+    if (.not. allocated(self%residual)) allocate (self%residual(size(contact)), self%values(size(contact)), stat=stat)
     call require_memory(stat, 'the preconditioner of', size(contact), 'points', info)
     if (stat == 0) call self%extension%set(operator%grid(), contact, info)
   end subroutine set
@@ -67,38 +66,93 @@ contains
     real(dp), intent(in), contiguous, target :: residual(:)
     real(dp), intent(inout), contiguous, target :: force(:)
     type(fuge_info), intent(inout) :: info
-    type(rounding_pass) :: pass
-    real(dp) :: unit
+    type(extension_pass) :: pass
 
-    pass%exact => residual
-    call pass%run(size(residual), 1)
-    ! A power of two, so that small residuals keep their digits.
-    unit = scale(1.0_dp, exponent(max(pass%largest(1), tiny(unit))))
-    pass%factor = 1.0_dp/unit
-    pass%rounded => self%residual
-    call pass%run(size(residual), 0)
-    call self%extension%extend(self%residual)
-    call precondition_single(operator, self%residual, self%force, info)
+    call self%extension%point_to_cover(pass%cover)
+    pass%values => self%values
+    pass%source => residual
+    pass%target => self%residual
+    call pass%go(find_largest, 1)
+    pass%unit = unit_of(pass%largest(1))
+    call pass%go(round_values, 0)
+    call self%extension%extend(self%values)
+    call pass%go(extend_residual, 0)
+    call precondition(operator, self%residual, force, info)
     if (info%failed()) return
-    call self%extension%collect(self%force)
-    pass%exact => force
-    pass%rounded => self%force
-    pass%factor = unit
-    pass%backwards = .true.
-    call pass%run(size(force), 0)
+    pass%source => force
+    pass%target => force
+    call pass%go(find_largest, 1)
+    pass%unit = unit_of(pass%largest(1))
+    call pass%go(round_open_values, 0)
+    call self%extension%collect(self%values)
+    call pass%go(add_collected, 0)
   end subroutine apply
 
-  subroutine round_chunk(self, k, first, last)
-    class(rounding_pass), intent(inout) :: self
+  !> A power of two near `largest`, so that small numbers keep their digits in single precision.
+  elemental function unit_of(largest) result(unit)
+    real(dp), intent(in) :: largest
+    real(dp) :: unit
+
+    unit = scale(1.0_dp, exponent(max(largest, tiny(unit))))
+  end function unit_of
+
+  !> Do `operation` on all chunks; it finds `results` numbers in each.
+  subroutine go(self, operation, results)
+    class(extension_pass), intent(inout) :: self
+    procedure(chunk_operation) :: operation
+    integer, intent(in) :: results
+
+    self%operation => operation
+    call self%run(size(self%source), results)
+  end subroutine go
+
+  subroutine do_chunk(self, k, first, last)
+    class(extension_pass), intent(inout) :: self
     integer, intent(in) :: k, first, last
 
-    if (.not. associated(self%rounded)) then
-      if (last >= first) self%found(1, k) = maxval(abs(self%exact(first:last)))
-    else if (self%backwards) then
-      self%exact(first:last) = self%factor*real(self%rounded(first:last), dp)
-    else
-      self%rounded(first:last) = real(self%factor*self%exact(first:last), sp)
-    end if
-  end subroutine round_chunk
+    if (last >= first) call self%operation(self, k, first, last)
+  end subroutine do_chunk
+
+  !> Found: the largest magnitude.
+  subroutine find_largest(pass, k, first, last)
+    class(extension_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+
+    pass%found(1, k) = maxval(abs(pass%source(first:last)))
+  end subroutine find_largest
+
+  subroutine round_values(pass, k, first, last)
+    class(extension_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+
+    if (k > 0) pass%values(first:last) = real(pass%source(first:last)/pass%unit, sp)
+  end subroutine round_values
+
+  !> The residuals of the set, and those that open points are given.
+  subroutine extend_residual(pass, k, first, last)
+    class(extension_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+
+    if (k > 0) pass%target(first:last) = pass%source(first:last) &
+      + pass%unit*real((1.0_sp - pass%cover(first:last))*pass%values(first:last), dp)
+  end subroutine extend_residual
+
+  !> Forces of open points, nothing on the set.
+  subroutine round_open_values(pass, k, first, last)
+    class(extension_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+
+    if (k > 0) pass%values(first:last) = (1.0_sp - pass%cover(first:last)) &
+                                         *real(pass%source(first:last)/pass%unit, sp)
+  end subroutine round_open_values
+
+  !> Forces of the set and what was collected there, none at open points.
+  subroutine add_collected(pass, k, first, last)
+    class(extension_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+
+    if (k > 0) pass%target(first:last) = real(pass%cover(first:last), dp) &
+      *(pass%target(first:last) + pass%unit*real(pass%values(first:last), dp))
+  end subroutine add_collected
 
 end module fuge_extended_preconditioner

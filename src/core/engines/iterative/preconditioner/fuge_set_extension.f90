@@ -46,6 +46,7 @@ module fuge_set_extension
   contains
     procedure :: set
     procedure :: extend
+    procedure :: point_to_cover
     procedure :: collect
   end type set_extension
 
@@ -130,6 +131,14 @@ contains
     if (stat /= 0 .and. allocated(self%levels)) deallocate (self%levels)
     call require_memory(stat, 'the extension of a contact set of', product(cells), 'points', info)
   end subroutine create_levels
+
+  !> The `cover` (n) of the points: 1 on the set, 0 off it.
+  subroutine point_to_cover(self, cover)
+    class(set_extension), intent(in), target :: self
+    real(sp), pointer, contiguous, intent(out) :: cover(:)
+
+    cover(1:size(self%levels(1)%cover)) => self%levels(1)%cover
+  end subroutine point_to_cover
 
   !> E: give the `values` (n) of the set to open points too, whose own values do not count.
   subroutine extend(self, values)

@@ -63,6 +63,7 @@ module fuge_spring_operator
     procedure :: magnitude => find_magnitude
     procedure :: least_pair_compliance
     procedure :: has_preconditioner
+    procedure :: extends_sets
     procedure :: precondition
     procedure :: grid
     procedure :: free_rim
@@ -267,6 +268,15 @@ contains
 
     preconditioned = self%attached%has_preconditioner()
   end function has_preconditioner
+
+  !> Not on beds, which leave the displacement of each point to its own force.
+  function extends_sets(self) result(extends)
+    class(spring_operator), intent(in) :: self
+    logical :: extends
+
+    extends = .not. allocated(self%compliance)
+    if (extends) extends = self%attached%extends_sets()
+  end function extends_sets
 
   !> The sum over the beds of the preconditioner of A on each of them, restricted to its points.
   subroutine precondition(self, displacement, force, status)
