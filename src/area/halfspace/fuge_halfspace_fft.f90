@@ -125,7 +125,9 @@ contains
     call circle_of(operator%surface, length, info)
     if (info%failed()) return
     bytes = bytes_needed(operator%surface, length)
-    if (is_large(operator%surface)) bytes = bytes_in_slices(operator%surface, length(2))
+    ! Every solve has forces and displacements of all cells besides.
+    if (is_large(operator%surface)) bytes = bytes_in_slices(operator%surface, length(2)) &
+                                            + 16.0_dp*product(real(operator%surface%cells, dp))
     call check_memory(bytes, 'nx = '//text(operator%surface%cells(1))//', ny = ' &
                       //text(operator%surface%cells(2))//':', info)
     if (info%failed()) return
