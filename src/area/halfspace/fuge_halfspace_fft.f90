@@ -17,7 +17,8 @@ module fuge_halfspace_fft
   private
 
   !> Equal rectangles in a grid on a half-space: call `set`, then solve. It keeps the coarser grids of its
-  !> solves, which takes a third of the memory again.
+  !> solves, which takes a third of the memory again. A free grid of more than 4096 x 4096 cells keeps coefficients in
+  !> single precision only, and those only if a solve needs them: products compute the others anew.
   !>
   !> Copy it by assignment, never by allocate(source=), because it owns plans of FFTW.
   type, extends(grid_operator), public :: fuge_halfspace_operator

@@ -187,8 +187,8 @@ contains
 
     call compute_double(self%kernels, grid, plan, datum, status)
     self%kernels%rounded = .true.
-    if (status == 0 .and. suited) call round_both(self%kernels%influence, self%kernels%inverse, self%kernels%single_influence, &
-                        self%kernels%single_inverse)
+    if (status == 0 .and. suited) call round_both(self%kernels%influence, self%kernels%inverse, &
+                                                  self%kernels%single_influence, self%kernels%single_inverse)
   end subroutine compute_all
 
   subroutine compute_double(kernels, grid, plan, datum, status)

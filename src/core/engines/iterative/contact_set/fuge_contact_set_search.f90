@@ -526,7 +526,9 @@ contains
     integer(int8), intent(out) :: state(:)
 
     state = merge(int(FUGE_AT_LOWER_STOP, int8), int(FUGE_OPEN, int8), iterate%contact)
-    if (allocated(iterate%at_upper)) where (iterate%contact .and. iterate%at_upper) state = int(FUGE_AT_UPPER_STOP, int8)
+    if (allocated(iterate%at_upper)) then
+      where (iterate%contact .and. iterate%at_upper) state = int(FUGE_AT_UPPER_STOP, int8)
+    end if
     if (.not. allocated(iterate%limited)) return
     where (iterate%limited > 0) state = int(FUGE_LIMITED_LOWER, int8)
     where (iterate%limited < 0) state = int(FUGE_LIMITED_UPPER, int8)

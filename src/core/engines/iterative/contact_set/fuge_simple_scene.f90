@@ -27,7 +27,7 @@ module fuge_simple_scene
     procedure :: do_chunk => do_gaps
   end type gap_pass
 
-  !> Finds the largest force; then with a `load` their sum, where forces up to `least` are none; then with `displacement`
+  !> Finds the largest force; then with a `load` their sum, where forces up to `least` are none; with `displacement` it
   !> gives forces and gaps in place of the scaled forces and the displacements.
   type, extends(chunked_pass) :: solution_pass
     real(dp), pointer, contiguous :: force(:) => null(), reduced_gap(:) => null(), displacement(:) => null()
@@ -110,8 +110,8 @@ contains
     end if
   end subroutine check_range
 
-  !> The motion in the units of the problem, `solution`%motion; forces of `iterate` that are rounding become zero. Error:
-  !> FUGE_ERR_MEMORY.
+  !> The motion in the units of the problem, `solution`%motion; forces of `iterate` that are rounding become zero.
+  !> Error: FUGE_ERR_MEMORY.
   subroutine find_simple_motion(operator, scene, scaling, iterate, solution, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
