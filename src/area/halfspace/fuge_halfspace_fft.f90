@@ -7,6 +7,7 @@ module fuge_halfspace_fft
     least_magnitude, periodic
   use fuge_halfspace_kernels, only: bytes_in_slices, kernel_store, multiply_in_slices
   use fuge_halfspace_spectra, only: bytes_needed
+  use fuge_kept_rows, only: drop_rows
   use fuge_kinds, only: dp, sp
   use fuge_memory, only: check_memory
   use fuge_number_text, only: text
@@ -206,6 +207,8 @@ contains
     if (status /= FUGE_DONE) return
     if (is_large(self%surface)) then
       if (.not. self%store%has_double()) then
+        ! Products in single precision need their rows, but not now.
+        if (associated(self%single%kept)) call drop_rows(self%single%kept)
         call multiply_in_slices(self%surface, self%plan, size(force), force, displacement, status)
         return
       end if
