@@ -1,24 +1,25 @@
 !> The elastic half-space on a uniform grid of rectangles, by FFT: A of `fuge_halfspace_matrix`, or of a periodic
 !> surface, in O(n log n) operations and O(n) memory.
 module fuge_halfspace_fft
-  use fuge_grid_convolution, only: grid_kernel
   use fuge_grid_plan, only: grid_plan
   use fuge_grid_operator_type, only: grid_operator
-  use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, count_coarser, halfspace_grid, &
+  use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, count_coarser, halfspace_grid, is_large, &
     least_magnitude, periodic
-  use fuge_halfspace_spectra, only: bytes_needed, compute_spectra
+  use fuge_halfspace_kernels, only: bytes_in_slices, kernel_store, multiply_in_slices
+  use fuge_halfspace_spectra, only: bytes_needed
+  use fuge_kept_rows, only: drop_rows
   use fuge_kinds, only: dp, sp
   use fuge_memory, only: check_memory
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_single_grid_convolution, only: round_kernel, single_kernel => grid_kernel
   use fuge_single_grid_plan, only: single_plan => grid_plan
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
   implicit none
   private
 
   !> Equal rectangles in a grid on a half-space: call `set`, then solve. It keeps the coarser grids of its
-  !> solves, which takes a third of the memory again.
+  !> solves, which takes a third of the memory again. A free grid of more than 4096 x 4096 cells keeps coefficients in
+  !> single precision only, and those only if a solve needs them: products compute the others anew.
   !>
   !> Copy it by assignment, never by allocate(source=), because it owns plans of FFTW.
   type, extends(grid_operator), public :: fuge_halfspace_operator
@@ -30,12 +31,10 @@ module fuge_halfspace_fft
     logical :: measured = .false.
     !> Transforms of rows and columns, of a free surface with some more cells to lengths that are fast.
     type(grid_plan) :: plan
-    !> The eigenvalues of the circulant matrix that holds A, and those of the preconditioner's, the inverse
-    !> of a periodic surface.
-    type(grid_kernel) :: influence, inverse
-    !> The same in single precision, where the numbers allow it.
+    !> The same in single precision.
     type(single_plan) :: single
-    type(single_kernel) :: single_influence, single_inverse
+    !> Those of a large grid are computed when they are first needed.
+    type(kernel_store) :: store
   contains
     procedure :: set
     procedure :: points
@@ -100,41 +99,38 @@ contains
   subroutine prepare(operator, info)
     type(fuge_halfspace_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
+    type(fuge_info) :: single_info
+    logical :: suited
     integer :: status
 
     call plan_transforms(operator, info)
     if (info%failed()) return
-    call compute_spectra(operator%surface, operator%plan, operator%influence, operator%inverse, operator%datum_value, &
-                         status)
+    ! Lines of an odd number of cells would not be aligned. Where memory is short there are no such products.
+    suited = all(mod(operator%plan%length, 2) == 0)
+    if (suited) call operator%single%set(operator%surface%cells, operator%plan%length, single_info, operator%measured)
+    call operator%store%create(status)
+    if (status == 0 .and. .not. is_large(operator%surface)) then
+      call operator%store%compute_all(operator%surface, operator%plan, suited .and. .not. single_info%failed(), &
+                                      operator%datum_value, status)
+    end if
     if (status /= 0) call report_no_memory(operator, info)
-    if (info%failed()) return
-    call prepare_single(operator)
-    call operator%make_room(count_coarser(operator%surface))
+    if (.not. info%failed()) call operator%make_room(count_coarser(operator%surface))
   end subroutine prepare
-
-  !> Round the spectra to single precision. Lines of an odd number of cells would not be aligned. Where memory is short
-  !> there are no such products.
-  subroutine prepare_single(operator)
-    class(fuge_halfspace_operator), intent(inout) :: operator
-    type(fuge_info) :: info
-    integer :: status
-
-    if (any(mod(operator%plan%length, 2) /= 0)) return
-    call operator%single%set(operator%surface%cells, operator%plan%length, info, operator%measured)
-    if (info%failed()) return
-    call round_kernel(operator%inverse, operator%single_inverse, status)
-    if (status == 0) call round_kernel(operator%influence, operator%single_influence, status)
-  end subroutine prepare_single
 
   !> Plan the transforms. Error: FUGE_ERR_MEMORY.
   subroutine plan_transforms(operator, info)
     type(fuge_halfspace_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
+    real(dp) :: bytes
     integer :: length(2)
 
     call circle_of(operator%surface, length, info)
     if (info%failed()) return
-    call check_memory(bytes_needed(operator%surface, length), 'nx = '//text(operator%surface%cells(1))//', ny = ' &
+    bytes = bytes_needed(operator%surface, length)
+    ! Every solve has forces and displacements of all cells besides.
+    if (is_large(operator%surface)) bytes = bytes_in_slices(operator%surface, length(2)) &
+                                            + 16.0_dp*product(real(operator%surface%cells, dp))
+    call check_memory(bytes, 'nx = '//text(operator%surface%cells(1))//', ny = ' &
                       //text(operator%surface%cells(2))//':', info)
     if (info%failed()) return
     call operator%plan%set(operator%surface%cells, length, info, operator%measured)
@@ -155,12 +151,9 @@ contains
     type(fuge_halfspace_operator), intent(inout) :: new
 
     call copy_numbers(self, new)
-    call self%influence%move_from(new%influence)
-    call self%inverse%move_from(new%inverse)
+    call self%store%move_from(new%store)
     call self%plan%move_from(new%plan)
     call self%single%move_from(new%single)
-    call self%single_influence%move_from(new%single_influence)
-    call self%single_inverse%move_from(new%single_inverse)
     call self%take_coarser(new)
   end subroutine move_contents
 
@@ -181,17 +174,13 @@ contains
 
     cells = source%surface%cells
     self%surface%cells = 0
-    ! Arrays of the right size are kept, because the source may be a bitwise copy of self that shares them.
-    call self%influence%copy_from(source%influence, stat)
-    if (stat == 0) call self%inverse%copy_from(source%inverse, stat)
+    call self%store%copy_from(source%store, stat)
     call self%plan%copy_from(source%plan)
     call copy_numbers(self, source)
     call self%drop_coarser()
     self%surface%cells = 0
     if (stat /= 0 .or. self%plan%cells(1) < 1) return
     self%surface%cells = cells
-    call self%single_influence%copy_from(source%single_influence, stat)
-    if (stat == 0) call self%single_inverse%copy_from(source%single_inverse, stat)
     call self%single%copy_from(source%single)
     call self%make_room(count_coarser(self%surface))
   end subroutine copy
@@ -216,7 +205,15 @@ contains
 
     call self%check_sizes(size(force), size(displacement), status)
     if (status /= FUGE_DONE) return
-    call self%influence%convolve(self%plan, size(force), force, displacement, status)
+    if (is_large(self%surface)) then
+      if (.not. self%store%has_double()) then
+        ! Products in single precision need their rows, but not now.
+        if (associated(self%single%kept)) call drop_rows(self%single%kept)
+        call multiply_in_slices(self%surface, self%plan, size(force), force, displacement, status)
+        return
+      end if
+    end if
+    call self%store%kernels%influence%convolve(self%plan, size(force), force, displacement, status)
   end subroutine apply
 
   !> The number subtracted from all coefficients, length per force; 0 unless one direction only is periodic.
@@ -249,9 +246,21 @@ contains
     integer, intent(out) :: status
 
     call self%check_sizes(size(displacement), size(force), status)
+    if (status == FUGE_DONE) call require_inverse(self, status)
     if (status /= FUGE_DONE) return
-    call self%inverse%convolve(self%plan, size(force), displacement, force, status)
+    call self%store%kernels%inverse%convolve(self%plan, size(force), displacement, force, status)
   end subroutine precondition
+
+  !> The kernels of a large grid, in double precision. `status`: 0 or FUGE_ERR_MEMORY.
+  subroutine require_inverse(operator, status)
+    type(fuge_halfspace_operator), intent(in) :: operator
+    integer, intent(out) :: status
+
+    status = FUGE_DONE
+    if (.not. is_large(operator%surface)) return
+    call operator%store%require_double(operator%surface, operator%plan, status)
+    if (status /= 0) status = FUGE_ERR_MEMORY
+  end subroutine require_inverse
 
   !> True after `set`.
   function has_preconditioner_on_bed(self) result(preconditioned)
@@ -269,8 +278,9 @@ contains
     integer, intent(out) :: status
 
     call self%check_sizes(size(displacement), size(force), status)
+    if (status == FUGE_DONE) call require_inverse(self, status)
     if (status /= FUGE_DONE) return
-    call self%inverse%convolve(self%plan, size(displacement), displacement, force, status, compliance)
+    call self%store%kernels%inverse%convolve(self%plan, size(displacement), displacement, force, status, compliance)
   end subroutine precondition_on_bed
 
   !> True after `set`, unless the numbers of the spectra are out of the range of single precision, or the cells of a
@@ -279,7 +289,12 @@ contains
     class(fuge_halfspace_operator), intent(in) :: self
     logical :: single
 
-    single = self%points() > 0 .and. self%single_influence%is_set() .and. self%single_inverse%is_set()
+    single = self%points() > 0 .and. associated(self%store%kernels) .and. self%single%cells(1) > 0
+    if (.not. single) return
+    if (is_large(self%surface)) call self%store%require_single(self%surface, self%plan)
+    associate (kernels => self%store%kernels)
+      single = kernels%single_influence%is_set() .and. kernels%single_inverse%is_set()
+    end associate
   end function has_single
 
   !> `apply` in single precision.
@@ -290,7 +305,8 @@ contains
     integer, intent(out) :: status
 
     call self%check_sizes(size(input), size(result), status)
-    if (status == FUGE_DONE) call self%single_influence%convolve(self%single, size(input), input, result, status)
+    if (status /= FUGE_DONE) return
+    call self%store%kernels%single_influence%convolve(self%single, size(input), input, result, status)
   end subroutine apply_single
 
   !> `precondition` in single precision.
@@ -301,7 +317,8 @@ contains
     integer, intent(out) :: status
 
     call self%check_sizes(size(input), size(result), status)
-    if (status == FUGE_DONE) call self%single_inverse%convolve(self%single, size(input), input, result, status)
+    if (status /= FUGE_DONE) return
+    call self%store%kernels%single_inverse%convolve(self%single, size(input), input, result, status)
   end subroutine precondition_single
 
   !> As `magnitude`.

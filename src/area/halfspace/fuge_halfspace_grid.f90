@@ -13,7 +13,8 @@ module fuge_halfspace_grid
   implicit none
   private
 
-  public :: check_grid, circle_of, coarsened, complete, count_coarser, cyclic, least_magnitude, periodic
+  public :: check_grid, circle_of, coarsened, complete, count_coarser, cyclic, is_large, &
+    least_magnitude, periodic
 
   !> `boundary`: the cells repeat periodically along x, and beyond them along y the surface is free.
   integer, parameter, public :: FUGE_PERIODIC_X = 2
@@ -28,6 +29,8 @@ module fuge_halfspace_grid
 
   !> A grid of fewer cells is not made by `coarsen`.
   integer, parameter :: FEWEST_CELLS = 32
+  !> More cells than this are a large grid.
+  integer, parameter :: MANY = 2**24
   !> The longer spacing over the shorter one, at most.
   real(dp), parameter :: LARGEST_RATIO = 1.0e5_dp
 
@@ -127,6 +130,14 @@ contains
 
     cyclic = grid%cells == grid%period
   end function cyclic
+
+  !> Is it an area of so many free cells that kernels of its size should not be kept without need?
+  pure function is_large(grid) result(large)
+    type(halfspace_grid), intent(in) :: grid
+    logical :: large
+
+    large = grid%boundary == FUGE_FREE .and. all(grid%cells > 1) .and. product(grid%cells) > MANY
+  end function is_large
 
   !> The length L for which the terms of the displacement by the forces f on a surface with a period are about the sum
   !> of |f|/(e_star L): the extent across the direction whose longest wave has the largest terms. One cell has no waves.

@@ -18,6 +18,7 @@ module fuge_contact_engine
   contains
     procedure(solve_problem), deferred :: solve
     procedure(judge_level), deferred :: judge
+    procedure :: keep => keep_nothing
     procedure(is_doubtful), deferred :: was_misled
     procedure(forget), deferred :: distrust_start
     procedure(forget), deferred :: forget_start
@@ -83,5 +84,17 @@ module fuge_contact_engine
       type(fuge_info), intent(inout) :: info
     end subroutine differentiate
   end interface
+
+contains
+
+  !> Keep a certified solution for the next solve; nothing by default.
+  subroutine keep_nothing(self, operator, problem, solution)
+    class(contact_engine), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+
+    if (operator%points() < 0 .and. size(solution%force) < size(problem%gap)) call self%forget_start()
+  end subroutine keep_nothing
 
 end module fuge_contact_engine

@@ -50,8 +50,11 @@ module fuge_product_engine
     type(scaled_springs), allocatable :: scaled
     !> The last problem needed its canonical form; otherwise, whether its approach was prescribed.
     logical :: is_general = .false., is_prescribed = .false.
+    !> The solution joins the last ones once it is certified, whose certificate needs memory too.
+    logical :: keeps_later = .false.
   contains
     procedure :: solve
+    procedure :: keep
     procedure :: judge
     procedure :: was_misled
     procedure :: distrust_start => forget_start
@@ -87,6 +90,7 @@ contains
     if (allocated(self%scaled)) deallocate (self%scaled)
     cells = operator%grid()
     space = operator%ranks()
+    self%keeps_later = .not. problem%has_springs()
     if (problem%has_springs() .and. space%is_alone() .and. .not. all(cells > 0)) then
       call solve_scaled(self, operator, problem, options, monitor, solution, info)
     else if (problem%has_springs()) then
@@ -360,7 +364,18 @@ contains
     if (.not. info%failed()) call give_states(self%last, solution, info)
     space = operator%ranks()
     call space%agree(info)
+    if (.not. (self%keeps_later .or. info%failed())) call self%steps%store(problem, space, solution)
   end subroutine solve_by_products
+
+  !> As for `contact_engine`: in the last solutions, which on springs have it already.
+  subroutine keep(self, operator, problem, solution)
+    class(product_engine), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+
+    if (self%keeps_later) call self%steps%store(problem, operator%ranks(), solution)
+  end subroutine keep
 
   !> A copy of the states for the caller, because derivatives need them too. Error: FUGE_ERR_MEMORY.
   subroutine give_states(set, solution, info)
@@ -385,7 +400,7 @@ contains
 
     ! Points that give way make the level of the forces unique.
     if (self%is_general .and. .not. problem%has_law()) then
-      call judge_force_level(operator, self%canonical, problem%gap, self%last%state, tolerance, info)
+      call judge_force_level(operator, self%canonical, problem%gap, int(self%last%state), tolerance, info)
     end if
   end subroutine judge
 
@@ -511,8 +526,8 @@ contains
     type(point_space) :: space
 
     if (self%is_general) then
-      call find_derivative_by_products(operator, self%canonical, self%last%state, self%last%tolerance, gap_change, &
-                                       load_change, change, info)
+      call find_derivative_by_products(operator, self%canonical, int(self%last%state), self%last%tolerance, &
+                                       gap_change, load_change, change, info)
       return
     end if
     call set_problem(0.0_dp*gap_change, 1.0_dp, problem, info)
@@ -522,7 +537,7 @@ contains
     problem%prescribed = [self%is_prescribed]
     problem%motion = [0.0_dp]
     call make_canonical(problem, canonical, info, operator%ranks())
-    if (.not. info%failed()) call find_derivative_by_products(operator, canonical, self%last%state, &
+    if (.not. info%failed()) call find_derivative_by_products(operator, canonical, int(self%last%state), &
                                                               self%last%tolerance, gap_change, load_change, change, &
                                                               info)
   end subroutine differentiate

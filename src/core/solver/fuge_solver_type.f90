@@ -196,6 +196,7 @@ contains
       call explain_by_force_level(operator, engine%canonical, problem%gap, options%tolerance, info)
     end if
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
+    if (.not. info%failed()) call engine%keep(operator, problem, solution)
   end subroutine solve_and_certify
 
   !> Start the next solve with a matrix from these states of the points, (n), as in `fuge_solution`, instead of those of

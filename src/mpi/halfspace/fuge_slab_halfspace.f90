@@ -36,6 +36,7 @@ module fuge_slab_halfspace
     procedure :: points
     procedure :: apply
     procedure :: magnitude => slab_magnitude
+    procedure :: common_magnitude
     procedure :: precondition
     procedure :: has_preconditioner_on_bed
     procedure :: precondition_on_bed
@@ -210,6 +211,15 @@ contains
     magnitude = max(space%largest(maxval(abs(displacement))), &
                     least_magnitude(self%surface, space%total(sum(abs(force)))))
   end subroutine slab_magnitude
+
+  !> As `magnitude`, of the largest displacement and the forces of all ranks.
+  function common_magnitude(self, largest, total) result(magnitude)
+    class(fuge_mpi_halfspace_operator), intent(in) :: self
+    real(dp), intent(in) :: largest, total
+    real(dp) :: magnitude
+
+    magnitude = max(largest, least_magnitude(self%surface, total))
+  end function common_magnitude
 
   !> As that of `fuge_halfspace_operator`. All ranks call it; `status` as for `apply`.
   subroutine precondition(self, displacement, force, status)

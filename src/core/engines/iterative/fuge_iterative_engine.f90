@@ -9,7 +9,7 @@ module fuge_iterative_engine
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, start_iterate
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_set_search, only: find_contact_set, find_states
+  use fuge_contact_set_search, only: find_contact_set, note_states
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_contact_window, only: solve_in_window, survey_level
   use fuge_engine_messages, only: report_closed_gap, SINGULAR_AND_UNRESISTED, SINGULAR_ON_CONTACT
@@ -27,13 +27,14 @@ module fuge_iterative_engine
   use fuge_point_space, only: point_space
   use fuge_repeated_points, only: find_repeated_points
   use fuge_scene_scaling, only: scene_scaling
-  use fuge_simple_scene, only: assemble_simple, set_simple_scene
+  use fuge_simple_scene, only: assemble_simple, find_simple_motion, set_simple_scene
   use fuge_probed_compliance, only: probe_compliance
   use fuge_search_settings, only: search_settings
   use fuge_shared_rows, only: rows_of
   use fuge_shared_transfer, only: prolong_to
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_NOT_UNIQUE
   use fuge_warm_start, only: load_history
+  use fuge_window_confirmation, only: confirm_window
   use fuge_wrong_points, only: choose_contact
   implicit none
   private
@@ -58,7 +59,7 @@ contains
   !> Solve a contact problem by iteration.
   !>
   !> `problem` checked; if plain, with a load > 0; `canonical` its canonical form, if it is general.
-  !> `history`: earlier solutions to start from, and this one on success. `last` the set of the last solve with this
+  !> `history`: earlier solutions to start from; the caller adds this one. `last` the set of the last solve with this
   !> operator, on return that of this one. `solution` may be unallocated; after an error it is
   !> undefined. Errors:
   !> FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT,
@@ -80,6 +81,7 @@ contains
     type(search_settings) :: coarse_settings, settings
     real(dp) :: force, length
     integer :: coarse_products, fine_products
+    logical :: found
     type(point_space) :: space
 
     history%started_warm = .false.
@@ -100,13 +102,14 @@ contains
     if (.not. info%failed()) call try_warm_start(operator, problem, scene, scaling, history, iterate, info)
     settings%prepared = history%started_warm
     coarse_products = -info%products
+    found = .false.
     if (.not. (info%failed() .or. settings%prepared)) then
-      call start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, iterate, info)
+      call start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, iterate, found, info)
     end if
     if (info%failed()) return
     coarse_products = coarse_products + info%products
     fine_products = -info%products
-    call find_contact_set(operator, settings, scene, monitor, iterate, info)
+    if (.not. found) call find_contact_set(operator, settings, scene, monitor, iterate, info)
     if (.not. info%failed()) call keep_set(iterate, last, info)
     if (info%failed()) return
     fine_products = fine_products + info%products
@@ -115,35 +118,19 @@ contains
     else
       call history%record_cold(iterate%start_error, options%tolerance, coarse_products, fine_products)
     end if
-    call assemble_solution(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    if (is_general(problem)) then
+      call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
+    else
+      call find_simple_motion(operator, scene, scaling, iterate, solution, info)
+    end if
     if (info%failed()) return
     call find_rounding(problem, canonical, scene, scaling%load, iterate, solution, length, force)
     call judge_forces(operator, scene, length, force, monitor, iterate, info)
     if (info%failed()) return
+    if (.not. is_general(problem)) call assemble_simple(scene, scaling, iterate, solution)
     last%least_compliance = iterate%least_compliance
     last%tolerance = options%tolerance
-    ! The history needs memory of its own.
-    call discard(iterate)
-    call history%store(problem, scene%rows%point_space, solution)
   end subroutine solve_by_iteration
-
-  !> The solution in the units of the problem. Error: FUGE_ERR_MEMORY.
-  subroutine assemble_solution(operator, problem, canonical, scene, scaling, iterate, solution, info)
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(canonical_problem), intent(in) :: canonical
-    type(contact_scene), intent(in) :: scene
-    type(scene_scaling), intent(in) :: scaling
-    type(contact_iterate), intent(inout) :: iterate
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-
-    if (is_general(problem)) then
-      call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
-    else
-      call assemble_simple(operator, scene, scaling, iterate, solution, info)
-    end if
-  end subroutine assemble_solution
 
   !> The estimated error of the forces, info%force_error, and a warning where two points are repeated, so that forces
   !> are not unique. `length` and `force` as from `find_rounding`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED, those of
@@ -228,7 +215,7 @@ contains
         if (space%everywhere(same)) iterate%least_compliance = last%least_compliance
       end if
     end associate
-    call find_states(iterate, last%state)
+    call note_states(iterate, last%state)
     last%least_compliance = iterate%least_compliance
   end subroutine keep_set
 
@@ -270,19 +257,22 @@ contains
   end subroutine discard
 
   !> Start `iterate` by coarser grids, and where the contact is small by a window of the finest one; where the operator
-  !> has neither, from what start_iterate chooses. Errors: those of nested_iteration.
-  subroutine start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, iterate, info)
+  !> has neither, from what start_iterate chooses. `found`: the iterate solves the finest grid. Errors: those of
+  !> nested_iteration.
+  subroutine start_on_coarser_grids(operator, coarse_settings, settings, scene, monitor, iterate, found, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: coarse_settings, settings
     type(contact_scene), intent(in) :: scene
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
+    logical, intent(out) :: found
     type(fuge_info), intent(inout) :: info
     type(shared_work) :: work
     real(dp), allocatable :: start(:)
     integer :: level
     logical :: solved
 
+    found = .false.
     solved = .false.
     level = 0
     if (scene%rows%everywhere(scene%fits_window())) level = survey_level(operator)
@@ -299,6 +289,8 @@ contains
     info%products = info%products + ceiling(work%products/real(scene%points(), dp))
     info%preconditionings = info%preconditionings + ceiling(work%preconditionings/real(scene%points(), dp))
     if (.not. info%failed()) call start_iterate(iterate, scene, start, info)
+    if (allocated(start)) deallocate (start)
+    if (solved .and. .not. info%failed()) call confirm_window(operator, settings, scene, iterate, found, info)
   end subroutine start_on_coarser_grids
 
   !> Refuse prescribed motions at which the mean gap is closed, or open by no more than the rounding of the

@@ -9,7 +9,7 @@ module fuge_kept_rows
   implicit none
   private
 
-  public :: free_rows, return_rows, take_rows
+  public :: drop_rows, free_rows, return_rows, take_rows
 
   !> The room that an operator keeps. One product at a time uses it.
   type, public :: kept_rows
@@ -116,6 +116,15 @@ contains
     end if
     taken = taken_rows()
   end subroutine return_rows
+
+  !> Free the room unless a product uses it: the next one takes as long again as the system needs to clear memory.
+  subroutine drop_rows(kept)
+    type(kept_rows), pointer, intent(in) :: kept
+
+    call lock(LOCK_BUFFERS)
+    if (.not. kept%busy) call free_rows(kept)
+    call unlock(LOCK_BUFFERS)
+  end subroutine drop_rows
 
   !> Free the room; without effect if there is none.
   subroutine free_rows(kept)

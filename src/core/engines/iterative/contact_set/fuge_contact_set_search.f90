@@ -5,6 +5,7 @@
 !> stop making progress, a primal active-set method exchanges one point at a time: it lowers the
 !> energy in each step and so terminates.
 module fuge_contact_set_search
+  use, intrinsic :: iso_fortran_env, only: int8
   use fuge_blocking_step, only: is_tensile, step_to_blocking
   use fuge_complete_contact, only: equal_forces_displace_nothing
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, &
@@ -32,7 +33,7 @@ module fuge_contact_set_search
   implicit none
   private
 
-  public :: find_contact_set, find_states
+  public :: find_contact_set, find_states, note_states
 
   !> Limits whose sum is beyond the load by this fraction carry just the load.
   real(dp), parameter :: NEARLY = 1.0e-8_dp
@@ -518,5 +519,19 @@ contains
     where (iterate%limited > 0) state = FUGE_LIMITED_LOWER
     where (iterate%limited < 0) state = FUGE_LIMITED_UPPER
   end subroutine find_states
+
+  !> The same in little memory, to be kept from one solve to the next.
+  pure subroutine note_states(iterate, state)
+    type(contact_iterate), intent(in) :: iterate
+    integer(int8), intent(out) :: state(:)
+
+    state = merge(int(FUGE_AT_LOWER_STOP, int8), int(FUGE_OPEN, int8), iterate%contact)
+    if (allocated(iterate%at_upper)) then
+      where (iterate%contact .and. iterate%at_upper) state = int(FUGE_AT_UPPER_STOP, int8)
+    end if
+    if (.not. allocated(iterate%limited)) return
+    where (iterate%limited > 0) state = int(FUGE_LIMITED_LOWER, int8)
+    where (iterate%limited < 0) state = int(FUGE_LIMITED_UPPER, int8)
+  end subroutine note_states
 
 end module fuge_contact_set_search

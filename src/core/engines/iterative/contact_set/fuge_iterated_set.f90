@@ -1,5 +1,6 @@
 !> The contact set of an iterative solve, kept for derivatives and for the next solve.
 module fuge_iterated_set
+  use, intrinsic :: iso_fortran_env, only: int8
   use fuge_kinds, only: dp
   implicit none
   private
@@ -7,7 +8,7 @@ module fuge_iterated_set
   !> The contact set of the last solve.
   type, public :: iterated_set
     !> FUGE_AT_LOWER_STOP, FUGE_OPEN or FUGE_AT_UPPER_STOP of each point, (n).
-    integer, allocatable :: state(:)
+    integer(int8), allocatable :: state(:)
     !> The least compliance that conjugate gradients found on it, length per force; 0 before any step.
     real(dp) :: least_compliance = 0.0_dp
     !> The tolerance of the solve, which derivatives share.

@@ -14,7 +14,7 @@ module fuge_simple_scene
   implicit none
   private
 
-  public :: assemble_simple, set_simple_scene
+  public :: assemble_simple, find_simple_motion, set_simple_scene
 
   !> Forces up to this many units in the last place of the largest force are rounding.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
@@ -27,12 +27,12 @@ module fuge_simple_scene
     procedure :: do_chunk => do_gaps
   end type gap_pass
 
-  !> Finds the largest force, then gives forces and gaps: forces up to `least` are none.
+  !> Finds the largest force; then with a `load` their sum, where forces up to `least` are none; with `displacement` it
+  !> gives forces and gaps in place of the scaled forces and the displacements.
   type, extends(chunked_pass) :: solution_pass
-    real(dp), pointer, contiguous :: reduced_gap(:) => null(), scaled_force(:) => null(), displacement(:) => null(), &
-      force(:) => null(), gap(:) => null()
+    real(dp), pointer, contiguous :: force(:) => null(), reduced_gap(:) => null(), displacement(:) => null()
     logical, pointer, contiguous :: contact(:) => null()
-    real(dp) :: least = 0.0_dp, load = 1.0_dp, motion = 0.0_dp
+    real(dp) :: least = 0.0_dp, load = 0.0_dp, motion = 0.0_dp
   contains
     procedure :: do_chunk => do_solution
   end type solution_pass
@@ -110,59 +110,71 @@ contains
     end if
   end subroutine check_range
 
-  !> Forces, gaps and motion in the units of the problem. Error: FUGE_ERR_MEMORY.
-  subroutine assemble_simple(operator, scene, scaling, iterate, solution, info)
+  !> The motion in the units of the problem, `solution`%motion; forces of `iterate` that are rounding become zero.
+  !> Error: FUGE_ERR_MEMORY.
+  subroutine find_simple_motion(operator, scene, scaling, iterate, solution, info)
     class(fuge_operator), intent(in) :: operator
-    type(contact_scene), intent(in), target :: scene
+    type(contact_scene), intent(in) :: scene
     type(scene_scaling), intent(in) :: scaling
     type(contact_iterate), intent(inout), target :: iterate
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     type(solution_pass) :: pass
-    real(dp), allocatable, target :: force(:), gap(:)
     real(dp), allocatable :: motion(:)
     integer :: n, stat
 
     n = size(scene%gap)
-    allocate (force(n), gap(n), motion(1), stat=stat)
-    call require_memory(stat, 'the forces and gaps of', n, 'points', info)
+    allocate (motion(1), stat=stat)
+    call require_memory(stat, 'the motion of', n, 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    pass%scaled_force => iterate%force
+    pass%force => iterate%force
     call pass%run(n, 1)
     pass%least = ROUNDINGS*epsilon(1.0_dp)*scene%rows%largest(pass%largest(1))
     pass%load = scaling%load
-    pass%motion = iterate%motion
-    pass%reduced_gap => scene%gap
-    pass%displacement => iterate%displacement
-    pass%contact => iterate%contact
-    pass%force => force
-    pass%gap => gap
     call pass%run(n, 1)
     motion = scaling%gap_datum
     if (.not. iterate%prescribed) then
       motion = (scaling%load*iterate%motion + operator%datum()*scene%rows%total(pass%total(1))) + scaling%gap_datum
     end if
-    call move_alloc(force, solution%force)
-    call move_alloc(gap, solution%gap)
     call move_alloc(motion, solution%motion)
+  end subroutine find_simple_motion
+
+  !> Forces and gaps in the units of the problem, in the arrays of `iterate`, which has no forces and displacements
+  !> afterwards.
+  subroutine assemble_simple(scene, scaling, iterate, solution)
+    type(contact_scene), intent(in), target :: scene
+    type(scene_scaling), intent(in) :: scaling
+    type(contact_iterate), intent(inout), target :: iterate
+    type(fuge_solution), intent(inout) :: solution
+    type(solution_pass) :: pass
+
+    pass%force => iterate%force
+    pass%reduced_gap => scene%gap
+    pass%displacement => iterate%displacement
+    pass%contact => iterate%contact
+    pass%load = scaling%load
+    pass%motion = iterate%motion
+    call pass%run(size(scene%gap), 0)
+    call move_alloc(iterate%force, solution%force)
+    call move_alloc(iterate%displacement, solution%gap)
   end subroutine assemble_simple
 
-  !> Found: the largest force, then the sum of all.
   subroutine do_solution(self, k, first, last)
     class(solution_pass), intent(inout) :: self
     integer, intent(in) :: k, first, last
 
-    if (.not. associated(self%force)) then
-      self%found(1, k) = maxval(self%scaled_force(first:last))
-      return
+    if (associated(self%displacement)) then
+      self%force(first:last) = self%load*self%force(first:last)
+      self%displacement(first:last) = self%load*max(deformed_gap(self%reduced_gap(first:last), &
+                                                                 self%displacement(first:last), self%motion), 0.0_dp)
+      where (self%contact(first:last)) self%displacement(first:last) = 0.0_dp
+    else if (self%load > 0.0_dp) then
+      where (self%force(first:last) <= self%least) self%force(first:last) = 0.0_dp
+      self%found(1, k) = sum(self%load*self%force(first:last))
+    else
+      self%found(1, k) = maxval(self%force(first:last))
     end if
-    where (self%scaled_force(first:last) <= self%least) self%scaled_force(first:last) = 0.0_dp
-    self%force(first:last) = self%load*self%scaled_force(first:last)
-    self%gap(first:last) = self%load*max(deformed_gap(self%reduced_gap(first:last), self%displacement(first:last), &
-                                                      self%motion), 0.0_dp)
-    where (self%contact(first:last)) self%gap(first:last) = 0.0_dp
-    self%found(1, k) = sum(self%force(first:last))
   end subroutine do_solution
 
 end module fuge_simple_scene

@@ -1,0 +1,101 @@
+!> Does a contact that was found on a window solve the whole grid? One product tells, and no search on the whole grid
+!> needs its memory.
+module fuge_window_confirmation
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, is_accurate, relative_error
+  use fuge_contact_scene, only: contact_scene
+  use fuge_kinds, only: dp
+  use fuge_operator_type, only: fuge_operator
+  use fuge_point_chunks, only: chunked_pass
+  use fuge_search_settings, only: search_settings, SAFETY
+  use fuge_status, only: fuge_info
+  implicit none
+  private
+
+  public :: confirm_window
+
+  !> Finds the sum of gaps and displacements in the contact and the largest displacement; once the `motion` is known
+  !> the largest residual, the deepest penetration, and minus the least magnitude of a gap less `motion` in the contact.
+  type, extends(chunked_pass) :: distance_pass
+    real(dp), pointer, contiguous :: gap(:) => null(), displacement(:) => null()
+    logical, pointer, contiguous :: contact(:) => null()
+    logical :: knows_motion = .false.
+    real(dp) :: motion = 0.0_dp
+  contains
+    procedure :: do_chunk
+  end type distance_pass
+
+contains
+
+  !> Evaluate `iterate`, whose forces are those of a window and zero outside it. `confirmed`: they solve the scene, one
+  !> free translation with one-sided contact at all points, to the tolerance; otherwise they are a start. Errors: those
+  !> of the operator, FUGE_ERR_MEMORY.
+  subroutine confirm_window(operator, settings, scene, iterate, confirmed, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in), target :: scene
+    type(contact_iterate), intent(inout), target :: iterate
+    logical, intent(out) :: confirmed
+    type(fuge_info), intent(inout) :: info
+    type(distance_pass) :: pass
+    real(dp) :: found(3)
+
+    confirmed = scene%is_simple() .and. .not. scene%prescribed
+    ! Where points have magnitudes of their own, the search finds them.
+    if (confirmed) confirmed = operator%common_magnitude(1.0_dp, 1.0_dp) > 0.0_dp
+    if (.not. confirmed) return
+    iterate%contact = iterate%force > 0.0_dp
+    call compute_displacement(operator, .false., iterate%force, iterate%displacement, info)
+    if (.not. info%failed()) call iterate%segments%find(iterate%contact, info)
+    confirmed = .not. info%failed() .and. iterate%segments%points > 0
+    if (.not. confirmed) return
+    pass%gap => scene%gap
+    pass%displacement => iterate%displacement
+    pass%contact => iterate%contact
+    call pass%run(size(scene%gap), 2)
+    iterate%largest_magnitude = operator%common_magnitude(scene%rows%largest(pass%largest(2)), 1.0_dp)
+    iterate%motion = scene%rows%total(pass%total(1))/real(iterate%segments%points, dp)
+    pass%motion = iterate%motion
+    pass%knows_motion = .true.
+    call pass%run(size(scene%gap), 3)
+    found = [pass%largest(1), pass%largest(2), pass%largest(3)]
+    call scene%rows%raise(found)
+    iterate%residual_norm = found(1)
+    iterate%penetration = found(2)
+    iterate%least_magnitude = iterate%largest_magnitude - found(3)
+    iterate%start_error = relative_error(iterate)
+    iterate%converged = is_accurate(iterate, SAFETY*settings%tolerance)
+    confirmed = iterate%converged .and. iterate%penetration <= SAFETY**2*settings%tolerance*iterate%least_magnitude
+  end subroutine confirm_window
+
+  subroutine do_chunk(self, k, first, last)
+    class(distance_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+    real(dp) :: deepest, distance, largest, least, total
+    integer :: i
+
+    total = 0.0_dp
+    largest = 0.0_dp
+    deepest = 0.0_dp
+    least = huge(least)
+    do i = first, last
+      if (.not. self%knows_motion) then
+        if (self%contact(i)) total = total + (self%gap(i) + self%displacement(i))
+        largest = max(largest, abs(self%displacement(i)))
+        cycle
+      end if
+      distance = (self%gap(i) - self%motion) + self%displacement(i)
+      if (self%contact(i)) then
+        largest = max(largest, abs(distance))
+        least = min(least, abs(self%gap(i) - self%motion))
+      else
+        deepest = max(deepest, -distance)
+      end if
+    end do
+    if (self%knows_motion) then
+      self%found(:, k) = [largest, deepest, -least]
+    else
+      self%found(:, k) = [total, largest]
+    end if
+  end subroutine do_chunk
+
+end module fuge_window_confirmation
