@@ -44,6 +44,7 @@ module lone_rank
     procedure :: apply => apply_surface
     procedure :: datum => surface_datum
     procedure :: magnitude => surface_magnitude
+    procedure :: common_magnitude
     procedure :: has_preconditioner
     procedure :: precondition => precondition_surface
     procedure :: has_preconditioner_on_bed
@@ -168,6 +169,14 @@ contains
 
     call self%surface%magnitude(force, displacement, magnitude)
   end subroutine surface_magnitude
+
+  function common_magnitude(self, largest, total) result(magnitude)
+    class(lone_surface), intent(in) :: self
+    real(dp), intent(in) :: largest, total
+    real(dp) :: magnitude
+
+    magnitude = self%surface%common_magnitude(largest, total)
+  end function common_magnitude
 
   function has_preconditioner(self) result(preconditioned)
     class(lone_surface), intent(in) :: self
