@@ -189,8 +189,14 @@ contains
     logical :: may
 
     may = .false.
+    ! Forces of the iteration that may be none resist a motion all the same.
+    if (info(1)%status == FUGE_WARN_NOT_UNIQUE .and. info(2)%status == FUGE_DONE) then
+      associate (force => abs(solution(2)%force))
+        may = any(force > 0.0_dp .and. force <= info(2)%force_error*maxval(force))
+      end associate
+    end if
     if (scene%singular) then
-      may = concerns_forces(info(1)) .and. concerns_forces(info(2))
+      may = may .or. concerns_forces(info(1)) .and. concerns_forces(info(2))
       if (.not. info(1)%failed()) may = may .or. (info(1)%status == FUGE_WARN_RESIDUAL &
         .and. (.not. info(2)%failed() .or. info(2)%status == FUGE_ERR_NOT_DEFINITE))
       if (info(1)%status == FUGE_WARN_NOT_UNIQUE .and. info(2)%status == FUGE_ERR_NOT_DEFINITE) then
