@@ -4,7 +4,7 @@
 !>
 !> CONTACT is whole, a flat face in full contact, or tenth, a sphere that touches a tenth of the area; N x N cells, to
 !> 1e-8. The caller's arrays are the gaps and the forces, gaps and states of the solution. Appends to
-!> DIRECTORY/results.csv; n is N*N. Where the machine has less memory left than BYTES for each cell, by default 150, the
+!> DIRECTORY/results.csv; n is N*N. Where the machine has less memory left than BYTES for each cell, by default 80, the
 !> row says so in place of a solve.
 program area_memory
   use bench_memory, only: available, forget_peak, peak_resident, resident
@@ -18,7 +18,7 @@ program area_memory
 
   !> Of a solution at a cell: force, gap and state.
   real(dp), parameter :: BYTES_OF_SOLUTION = 20.0_dp
-  real(dp), parameter :: PI = acos(-1.0_dp), TOLERANCE = 1.0e-8_dp, BYTES_OF_CELL = 150.0_dp
+  real(dp), parameter :: PI = acos(-1.0_dp), TOLERANCE = 1.0e-8_dp, BYTES_OF_CELL = 80.0_dp
 
   call run()
 
