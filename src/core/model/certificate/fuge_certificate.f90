@@ -2,8 +2,9 @@
 !>
 !> It shares no code with any engine but the call of the operator, and sees only the caller's data.
 module fuge_certificate
+  use fuge_certificate_judgement, only: judge_points
   use fuge_certificate_passes, only: add_rounding_of_bodies, certificate_pass, find_arms, find_rigid_displacement, &
-    judge_points, sum_open_lengths, sum_terms, survey_displacements, survey_forces, tile_lengths, TILE
+    sum_open_lengths, sum_terms, survey_displacements, survey_forces, tile_lengths, TILE
   use fuge_data_scales, only: data_length, largest_by_mode, largest_of_body
   use fuge_elastic_energy, only: elastic_energy, energy_units
   use fuge_kinds, only: dp
