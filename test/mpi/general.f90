@@ -4,7 +4,7 @@ program general
   use fuge_mpi, only: fuge_mpi_halfplane_operator, fuge_mpi_halfspace_operator
   use mpi_f08
   use lone_rank, only: lone_surface
-  use rank_checks, only: are_alone, begin_checks, check_solution, end_checks, expect, gather, my_rank
+  use rank_checks, only: begin_checks, check_solution, end_checks, expect, gather, my_rank
   implicit none
 
   ! What a problem has.
@@ -87,7 +87,6 @@ contains
     rows = shared%own_rows()
     call fill(NX, NY, NX*(rows(1) - 1) + 1, shared%points(), parts, problem)
     if (my_rank() == 0) then
-      whole%extends = are_alone()
       call whole%surface%set(NX, NY, 1.0_dp/NX, 1.0_dp/NX, 1.0_dp, info)
       call fill(NX, NY, 1, NX*NY, parts, whole_problem)
     end if

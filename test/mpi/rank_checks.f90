@@ -5,7 +5,7 @@ module rank_checks
   implicit none
   private
 
-  public :: are_alone, begin_checks, check_solution, check_solves, end_checks, expect, gather, my_rank
+  public :: begin_checks, check_solution, check_solves, end_checks, expect, gather, my_rank
 
   type :: counters
     integer :: failures = 0, rank = 0
@@ -41,15 +41,6 @@ contains
     now%failures = now%failures + 1
     write (*, '(a,i0,2a)') 'rank ', now%rank, ', not as expected: ', what
   end subroutine expect
-
-  ! Is there one rank only?
-  function are_alone()
-    logical :: are_alone
-    integer :: ranks
-
-    call MPI_Comm_size(MPI_COMM_WORLD, ranks)
-    are_alone = ranks == 1
-  end function are_alone
 
   ! Compare on rank 0 what the ranks have found with what one process has: counts, which may differ by `counts`, and
   ! contact set; forces, gaps and motions to `accuracy`.

@@ -33,11 +33,9 @@ module lone_rank
     procedure :: leave
   end type lone_operator
 
-  ! A half-space in a group, or without one: in both cases without products in single precision, and with the extension
-  ! of contact sets, which several ranks do not have, only if it `extends` them.
+  ! A half-space in a group, or without one: in both cases without products in single precision.
   type, extends(fuge_operator), public :: lone_surface
     type(fuge_halfspace_operator) :: surface
-    logical :: extends = .false.
     class(rank_group), pointer :: group => null()
   contains
     procedure :: points => count_surface
@@ -49,7 +47,6 @@ module lone_rank
     procedure :: precondition => precondition_surface
     procedure :: has_preconditioner_on_bed
     procedure :: precondition_on_bed
-    procedure :: extends_sets => extends_surface
     procedure :: grid => surface_grid
     procedure :: free_rim => surface_rim
     procedure :: coarsen => coarsen_surface
@@ -210,14 +207,6 @@ contains
     call self%surface%precondition_on_bed(compliance, displacement, force, status)
   end subroutine precondition_on_bed
 
-  function extends_surface(self) result(extends)
-    class(lone_surface), intent(in) :: self
-    logical :: extends
-
-    extends = self%extends
-    if (extends) extends = self%surface%extends_sets()
-  end function extends_surface
-
   function surface_grid(self) result(cells)
     class(lone_surface), intent(in) :: self
     integer :: cells(2)
@@ -265,7 +254,6 @@ contains
     type is (fuge_halfspace_operator)
       one_surface%surface = surface
     end select
-    one_surface%extends = self%extends
     one_surface%group => self%group
     call move_alloc(one_surface, shared)
   end subroutine share

@@ -205,13 +205,12 @@ contains
 
     call self%check_sizes(size(force), size(displacement), status)
     if (status /= FUGE_DONE) return
+    ! In slices even if there is a kernel, so that the bits of a product do not depend on what was solved before.
     if (is_large(self%surface)) then
-      if (.not. self%store%has_double()) then
-        ! Products in single precision need their rows, but not now.
-        if (associated(self%single%kept)) call drop_rows(self%single%kept)
-        call multiply_in_slices(self%surface, self%plan, size(force), force, displacement, status)
-        return
-      end if
+      ! Products in single precision need their rows, but not now.
+      if (associated(self%single%kept)) call drop_rows(self%single%kept)
+      call multiply_in_slices(self%surface, self%plan, size(force), force, displacement, status)
+      return
     end if
     call self%store%kernels%influence%convolve(self%plan, size(force), force, displacement, status)
   end subroutine apply
@@ -381,6 +380,7 @@ contains
     allocate (smaller, stat=stat)
     if (stat /= 0) return
     call copy_numbers(smaller, self)
+    smaller%measured = .false.
     smaller%surface%cells = last - first + 1
     call prepare(smaller, info)
     if (.not. info%failed()) call move_alloc(smaller, part)

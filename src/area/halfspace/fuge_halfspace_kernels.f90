@@ -107,11 +107,14 @@ contains
     if (.not. associated(source%kernels)) return
     call self%create(status)
     if (status /= 0) return
+    ! Another thread may just be computing those of the source.
+    call lock(LOCK_GRIDS)
     call self%kernels%influence%copy_from(source%kernels%influence, status)
     if (status == 0) call self%kernels%inverse%copy_from(source%kernels%inverse, status)
     if (status == 0) call self%kernels%single_influence%copy_from(source%kernels%single_influence, status)
     if (status == 0) call self%kernels%single_inverse%copy_from(source%kernels%single_inverse, status)
     self%kernels%rounded = source%kernels%rounded
+    call unlock(LOCK_GRIDS)
     if (status /= 0) call self%clear()
   end subroutine copy_from
 

@@ -72,7 +72,7 @@ contains
     integer :: k
 
     do k = part + 1, size(self%found, 2), parts
-      call self%do_chunk(k, CHUNK*(k - 1) + 1, min(CHUNK*k, self%points))
+      call self%do_chunk(k, CHUNK*(k - 1) + 1, CHUNK*(k - 1) + min(CHUNK, self%points - CHUNK*(k - 1)))
     end do
   end subroutine do_part
 

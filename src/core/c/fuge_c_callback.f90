@@ -51,6 +51,7 @@ module fuge_c_callback
     procedure :: magnitude => callback_magnitude
     procedure :: has_preconditioner
     procedure :: precondition
+    procedure :: extends_sets
     procedure :: grid
     procedure :: free_rim
     procedure :: coarsen
@@ -230,6 +231,14 @@ contains
       call self%auxiliary%operator%precondition(displacement, force, status)
     end if
   end subroutine precondition
+
+  !> On the cells of an area, unless the preconditioner is a diagonal, which takes each displacement for itself.
+  function extends_sets(self) result(extends)
+    class(callback_operator), intent(in) :: self
+    logical :: extends
+
+    extends = all(self%cells > 1) .and. .not. allocated(self%diagonal)
+  end function extends_sets
 
   function grid(self) result(cells)
     class(callback_operator), intent(in) :: self

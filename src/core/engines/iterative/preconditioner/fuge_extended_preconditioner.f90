@@ -5,7 +5,9 @@ module fuge_extended_preconditioner
   use fuge_operator_products, only: precondition
   use fuge_operator_type, only: fuge_operator
   use fuge_point_chunks, only: chunked_pass
+  use fuge_point_space, only: point_space
   use fuge_set_extension, only: set_extension
+  use fuge_shared_rows, only: rows_of, shared_rows
   use fuge_status, only: fuge_info, require_memory
   implicit none
   private
@@ -50,12 +52,14 @@ contains
     class(fuge_operator), intent(in) :: operator
     logical, intent(in), contiguous :: contact(:)
     type(fuge_info), intent(inout) :: info
+    type(shared_rows) :: rows
     integer :: stat
 
     stat = 0
     if (.not. allocated(self%residual)) allocate (self%residual(size(contact)), self%values(size(contact)), stat=stat)
     call require_memory(stat, 'the preconditioner of', size(contact), 'points', info)
-    if (stat == 0) call self%extension%set(operator%grid(), contact, info)
+    call rows_of(operator, 0, rows, info)
+    if (.not. info%failed()) call self%extension%set(rows, operator%grid(), contact, info)
   end subroutine set
 
   !> Forces on the contact set whose displacements are close to `residual`, (n), length, zero off the set; `force` (n),
@@ -67,24 +71,28 @@ contains
     real(dp), intent(inout), contiguous, target :: force(:)
     type(fuge_info), intent(inout) :: info
     type(extension_pass) :: pass
+    type(point_space) :: space
 
+    space = operator%ranks()
     call self%extension%point_to_cover(pass%cover)
     pass%values => self%values
     pass%source => residual
     pass%target => self%residual
     call pass%go(find_largest, 1)
-    pass%unit = unit_of(pass%largest(1))
+    pass%unit = unit_of(space%largest(pass%largest(1)))
     call pass%go(round_values, 0)
-    call self%extension%extend(self%values)
+    call self%extension%extend(self%values, info)
+    if (info%failed()) return
     call pass%go(extend_residual, 0)
     call precondition(operator, self%residual, force, info)
     if (info%failed()) return
     pass%source => force
     pass%target => force
     call pass%go(find_largest, 1)
-    pass%unit = unit_of(pass%largest(1))
+    pass%unit = unit_of(space%largest(pass%largest(1)))
     call pass%go(round_open_values, 0)
-    call self%extension%collect(self%values)
+    call self%extension%collect(self%values, info)
+    if (info%failed()) return
     call pass%go(add_collected, 0)
   end subroutine apply
 
@@ -93,7 +101,7 @@ contains
     real(dp), intent(in) :: largest
     real(dp) :: unit
 
-    unit = scale(1.0_dp, exponent(max(largest, tiny(unit))))
+    unit = scale(1.0_dp, exponent(max(largest, tiny(unit))) - 1)
   end function unit_of
 
   !> Do `operation` on all chunks; it finds `results` numbers in each.

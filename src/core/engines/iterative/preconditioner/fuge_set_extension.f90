@@ -10,11 +10,15 @@
 !> set decides its displacement: 1 or 0 on the finest grid, GROWTH times the mean of its cells on a coarser one, at most
 !> 1. Its value is the mean of its cells weighted by their cover, and what is not covered is interpolated from the next
 !> coarser grid, zero on the coarsest. Grids are periodic, as those of the preconditioner of a free surface are too.
+!>
+!> Where ranks share the rows, each has its own of the finest grid and all of the coarser ones, to which each adds what
+!> its rows give.
 module fuge_set_extension
   use fuge_extension_kernels, only: add_open_row, add_row, collect_row, coarser_row, fill_row, interpolate_row, &
     spread_row, sum_pairs, NEAR, NEXT
   use fuge_grid_transfer, only: coarser_cells
-  use fuge_kinds, only: sp
+  use fuge_kinds, only: dp, sp
+  use fuge_shared_rows, only: shared_rows
   use fuge_status, only: fuge_info, require_memory
   use fuge_threads, only: run_in_parts, share, threads_here, work_in_parts
   implicit none
@@ -27,7 +31,7 @@ module fuge_set_extension
   !> The coarsest grid has no more cells than this in each direction.
   integer, parameter :: COARSEST = 4
   !> Fewer cells are done by one thread: waking others would take as long.
-  integer, parameter :: FEWEST_FOR_THREADS = 16384
+  real(dp), parameter :: FEWEST_FOR_THREADS = 16384.0_dp
 
   !> One grid.
   type :: extension_level
@@ -43,6 +47,9 @@ module fuge_set_extension
     !> From the finest grid to the coarsest; so many of them are needed.
     type(extension_level), allocatable :: levels(:)
     integer :: depth = 0
+    type(shared_rows) :: rows = shared_rows()
+    !> The rows of the finest grid that are here, the first of them and how many.
+    integer :: first = 1, own = 0
   contains
     procedure :: set
     procedure :: extend
@@ -57,6 +64,8 @@ module fuge_set_extension
     logical, pointer, contiguous :: contact(:, :) => null()
     !> Rows to go over.
     integer :: rows = 0
+    !> The rows of `fine` that are here: `own` after this many.
+    integer :: before = 0, own = 0
     procedure(row_operation), pointer, nopass :: operation => null()
   contains
     procedure :: do_part
@@ -74,26 +83,30 @@ module fuge_set_extension
 
 contains
 
-  !> Prepare for the set `contact` of a grid of `cells` in each direction. Error: FUGE_ERR_MEMORY.
-  subroutine set(self, cells, contact, info)
+  !> Prepare for the set `contact` of a grid of `cells` in each direction, of which the rows may be shared: `contact`
+  !> (n), of the points here. Error: FUGE_ERR_MEMORY.
+  subroutine set(self, rows, cells, contact, info)
     class(set_extension), intent(inout), target :: self
+    type(shared_rows), intent(in) :: rows
     integer, intent(in) :: cells(2)
     logical, intent(in), contiguous, target :: contact(:)
     type(fuge_info), intent(inout) :: info
     type(row_pass) :: pass
     integer :: l
 
-    call create_levels(self, cells, info)
+    call create_levels(self, rows, cells, size(contact)/cells(1), info)
     if (info%failed()) return
-    pass%fine => self%levels(1)
-    pass%contact(1:cells(1), 1:cells(2)) => contact
-    call pass%go(mark_cells, cells(2))
+    call point_to_level(self, 1, pass)
+    pass%contact(1:cells(1), 1:self%own) => contact
+    call pass%go(mark_cells, self%own)
     do l = 1, size(self%levels)
       self%depth = l
       if (l == size(self%levels)) exit
-      if (.not. any(self%levels(l)%cover < 1.0_sp)) exit
-      pass%fine => self%levels(l)
-      pass%coarse => self%levels(l + 1)
+      if (.not. rows%anywhere(any(self%levels(l)%cover < 1.0_sp))) exit
+      call point_to_level(self, l, pass)
+      call pass%go(sum_cover, pass%coarse%cells(2))
+      if (l == 1) call add_of_ranks(self, pass%coarse%inverse, info)
+      if (info%failed()) return
       call pass%go(cover_cells, pass%coarse%cells(2))
     end do
     if (self%depth == 1) return
@@ -103,16 +116,24 @@ contains
     end associate
   end subroutine set
 
-  !> Create the grids, unless they are there.
-  subroutine create_levels(self, cells, info)
+  !> Create the grids, unless they are there; `own` rows of the finest are here.
+  subroutine create_levels(self, rows, cells, own, info)
     class(set_extension), intent(inout) :: self
-    integer, intent(in) :: cells(2)
+    type(shared_rows), intent(in) :: rows
+    integer, intent(in) :: cells(2), own
     type(fuge_info), intent(inout) :: info
-    integer :: count, l, stat
+    integer :: count, l, range(2), stat
 
     if (allocated(self%levels)) then
       if (all(self%levels(1)%cells == cells)) return
       deallocate (self%levels)
+    end if
+    self%rows = rows
+    self%own = own
+    self%first = 1
+    if (.not. rows%is_alone()) then
+      range = rows%own()
+      self%first = range(1)
     end if
     count = 1
     do while (any(coarser_cells(cells, count - 1) > COARSEST))
@@ -123,14 +144,39 @@ contains
       if (stat /= 0) exit
       self%levels(l)%cells = coarser_cells(cells, l - 1)
       associate (n => self%levels(l)%cells)
-        allocate (self%levels(l)%cover(n(1), n(2)), stat=stat)
+        allocate (self%levels(l)%cover(n(1), merge(own, n(2), l == 1)), stat=stat)
         if (l == 1 .or. stat /= 0) cycle
         allocate (self%levels(l)%values(n(1), n(2)), self%levels(l)%inverse(n(1), n(2)), stat=stat)
       end associate
     end do
     if (stat /= 0 .and. allocated(self%levels)) deallocate (self%levels)
     call require_memory(stat, 'the extension of a contact set of', product(cells), 'points', info)
+    call rows%agree(info)
+    if (info%failed() .and. allocated(self%levels)) deallocate (self%levels)
   end subroutine create_levels
+
+  !> Add up over the ranks what each has given to the coarser grid of the finest one. Error: FUGE_ERR_MEMORY.
+  subroutine add_of_ranks(self, values, info)
+    class(set_extension), intent(in) :: self
+    real(sp), intent(inout), contiguous :: values(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: sums(:)
+    integer :: j, n, stat
+
+    if (self%rows%is_alone()) return
+    allocate (sums(size(values)), stat=stat)
+    call require_memory(stat, 'the extension of a contact set of', size(values), 'coarser cells', info)
+    call self%rows%agree(info)
+    if (info%failed()) return
+    n = size(values, 1)
+    do j = 1, size(values, 2)
+      sums(n*(j - 1) + 1:n*j) = real(values(:, j), dp)
+    end do
+    call self%rows%add(sums)
+    do j = 1, size(values, 2)
+      values(:, j) = real(sums(n*(j - 1) + 1:n*j), sp)
+    end do
+  end subroutine add_of_ranks
 
   !> The `cover` (n) of the points: 1 on the set, 0 off it.
   subroutine point_to_cover(self, cover)
@@ -140,37 +186,46 @@ contains
     cover(1:size(self%levels(1)%cover)) => self%levels(1)%cover
   end subroutine point_to_cover
 
-  !> E: give the `values` (n) of the set to open points too, whose own values do not count.
-  subroutine extend(self, values)
+  !> E: give the `values` (n) of the set to open points too, whose own values do not count, but on as few cells as the
+  !> coarsest grid has, where they are to be zero. Error: FUGE_ERR_MEMORY, of
+  !> ranks only.
+  subroutine extend(self, values, info)
     class(set_extension), intent(inout), target :: self
     real(sp), intent(inout), contiguous, target :: values(:)
+    type(fuge_info), intent(inout) :: info
     type(row_pass) :: pass
     integer :: l
 
     do l = 1, self%depth - 1
       call point_to(self, l, values, pass)
       call pass%go(average_cells, pass%coarse%cells(2))
+      if (l == 1) call add_of_ranks(self, pass%coarse%values, info)
+      if (info%failed()) return
     end do
     do l = self%depth - 1, 1, -1
       call point_to(self, l, values, pass)
-      call pass%go(fill_cells, pass%fine%cells(2))
+      call pass%go(fill_cells, pass%own)
     end do
   end subroutine extend
 
-  !> E^T: distribute the `values` (n) of open points to the set; these are zero then.
-  subroutine collect(self, values)
+  !> E^T: distribute the `values` (n) of open points to the set; these are zero then, but on as few cells
+  !> as the coarsest grid has. Error: FUGE_ERR_MEMORY, of ranks only.
+  subroutine collect(self, values, info)
     class(set_extension), intent(inout), target :: self
     real(sp), intent(inout), contiguous, target :: values(:)
+    type(fuge_info), intent(inout) :: info
     type(row_pass) :: pass
     integer :: l
 
     do l = 1, self%depth - 1
       call point_to(self, l, values, pass)
       call pass%go(collect_cells, pass%coarse%cells(2))
+      if (l == 1) call add_of_ranks(self, pass%coarse%values, info)
+      if (info%failed()) return
     end do
     do l = self%depth - 1, 1, -1
       call point_to(self, l, values, pass)
-      call pass%go(spread_cells, pass%fine%cells(2))
+      call pass%go(spread_cells, pass%own)
     end do
   end subroutine collect
 
@@ -181,14 +236,28 @@ contains
     real(sp), intent(in), contiguous, target :: values(:)
     type(row_pass), intent(inout) :: pass
 
-    pass%fine => self%levels(l)
-    pass%coarse => self%levels(l + 1)
+    call point_to_level(self, l, pass)
     if (l > 1) then
       pass%values => self%levels(l)%values
     else
-      pass%values(1:pass%fine%cells(1), 1:pass%fine%cells(2)) => values
+      pass%values(1:pass%fine%cells(1), 1:pass%own) => values
     end if
   end subroutine point_to
+
+  !> Point a pass to the rows of level `l` that are here, and to the next level, if there is one.
+  subroutine point_to_level(self, l, pass)
+    class(set_extension), intent(in), target :: self
+    integer, intent(in) :: l
+    type(row_pass), intent(inout) :: pass
+
+    pass%fine => self%levels(l)
+    if (l < size(self%levels)) pass%coarse => self%levels(l + 1)
+    pass%before = 0
+    pass%own = pass%fine%cells(2)
+    if (l > 1) return
+    pass%before = self%first - 1
+    pass%own = self%own
+  end subroutine point_to_level
 
   !> Do `operation` on the rows 1 .. `rows`.
   subroutine go(self, operation, rows)
@@ -200,7 +269,7 @@ contains
     self%operation => operation
     self%rows = rows
     parts = 1
-    if (product(self%fine%cells) >= FEWEST_FOR_THREADS) parts = min(threads_here(), rows)
+    if (real(self%fine%cells(1), dp)*rows >= FEWEST_FOR_THREADS) parts = min(threads_here(), rows)
     call run_in_parts(parts, self)
   end subroutine go
 
@@ -223,23 +292,32 @@ contains
     pass%fine%cover(:, j) = merge(1.0_sp, 0.0_sp, pass%contact(:, j))
   end subroutine mark_cells
 
-  !> Cover of coarse cells, and one over that of their fine cells.
+  !> The sums of the cover of their cells, for coarse cells.
+  subroutine sum_cover(pass, j)
+    class(row_pass), intent(inout) :: pass
+    integer, intent(in) :: j
+    real(sp) :: pair(2*pass%coarse%cells(1))
+    integer :: k
+
+    pair = 0.0_sp
+    associate (n => pass%fine%cells(1))
+      do k = max(2*j - 1 - pass%before, 1), min(2*j - pass%before, pass%own)
+        pair(:n) = pair(:n) + pass%fine%cover(:, k)
+      end do
+    end associate
+    call sum_pairs(pass%coarse%cells(1), pair, pass%coarse%inverse(:, j))
+  end subroutine sum_cover
+
+  !> Cover of coarse cells, and one over that of their fine cells, of which the sums are known.
   subroutine cover_cells(pass, j)
     class(row_pass), intent(inout) :: pass
     integer, intent(in) :: j
-    real(sp) :: pair(2*pass%coarse%cells(1)), sums(pass%coarse%cells(1))
-    integer :: i, k
+    integer :: i
 
-    associate (n => pass%fine%cells)
-      pair = 0.0_sp
-      do k = 2*j - 1, min(2*j, n(2))
-        pair(:n(1)) = pair(:n(1)) + pass%fine%cover(:, k)
-      end do
-      call sum_pairs(size(sums), pair, sums)
-      do i = 1, size(sums)
-        pass%coarse%cover(i, j) = min(GROWTH*sums(i)/real(fine_cells(n(1), i)*fine_cells(n(2), j), sp), 1.0_sp)
-        pass%coarse%inverse(i, j) = 0.0_sp
-        if (sums(i) > 0.0_sp) pass%coarse%inverse(i, j) = 1.0_sp/sums(i)
+    associate (n => pass%fine%cells, inverse => pass%coarse%inverse, cover => pass%coarse%cover)
+      do i = 1, size(inverse, 1)
+        cover(i, j) = min(GROWTH*inverse(i, j)/real(fine_cells(n(1), i)*fine_cells(n(2), j), sp), 1.0_sp)
+        if (inverse(i, j) > 0.0_sp) inverse(i, j) = 1.0_sp/inverse(i, j)
       end do
     end associate
   end subroutine cover_cells
@@ -260,9 +338,9 @@ contains
     integer :: k
 
     pair = 0.0_sp
-    associate (n => pass%fine%cells)
-      do k = 2*j - 1, min(2*j, n(2))
-        call add_row(n(1), pass%fine%cover(:, k), pass%values(:, k), pair(:n(1)))
+    associate (n => pass%fine%cells(1))
+      do k = max(2*j - 1 - pass%before, 1), min(2*j - pass%before, pass%own)
+        call add_row(n, pass%fine%cover(:, k), pass%values(:, k), pair(:n))
       end do
     end associate
     call sum_pairs(size(sums), pair, sums)
@@ -275,8 +353,8 @@ contains
     integer, intent(in) :: j
     real(sp) :: filling(2*pass%coarse%cells(1)), row(pass%coarse%cells(1))
 
-    associate (n => pass%fine%cells, m => pass%coarse%cells, values => pass%coarse%values)
-      row = NEAR*values(:, (j + 1)/2) + NEXT*values(:, coarser_row(m(2), j))
+    associate (n => pass%fine%cells, m => pass%coarse%cells, values => pass%coarse%values, k => j + pass%before)
+      row = NEAR*values(:, (k + 1)/2) + NEXT*values(:, coarser_row(m(2), k))
       call interpolate_row(m(1), row, filling)
       call fill_row(n(1), pass%fine%cover(:, j), filling(:n(1)), pass%values(:, j))
     end associate
@@ -298,16 +376,16 @@ contains
     end associate
   end subroutine collect_cells
 
-  !> Add `weight` times what is not covered of row `k` of the fine grid to `rows`; nothing if it has no such row.
+  !> Add `weight` times what is not covered of row `k` of the fine grid to `rows`; nothing if it has no such row here.
   subroutine add_open(pass, weight, k, rows)
     class(row_pass), intent(in) :: pass
     real(sp), intent(in) :: weight
     integer, intent(in) :: k
     real(sp), intent(inout) :: rows(:)
 
-    associate (n => pass%fine%cells)
-      if (k > n(2)) return
-      call add_open_row(n(1), weight, pass%fine%cover(:, k), pass%values(:, k), rows(:n(1)))
+    associate (n => pass%fine%cells(1), here => k - pass%before)
+      if (here < 1 .or. here > pass%own) return
+      call add_open_row(n, weight, pass%fine%cover(:, here), pass%values(:, here), rows(:n))
     end associate
   end subroutine add_open
 
@@ -316,7 +394,7 @@ contains
     class(row_pass), intent(inout) :: pass
     integer, intent(in) :: j
 
-    associate (n => pass%fine%cells, m => pass%coarse%cells, k => (j + 1)/2)
+    associate (n => pass%fine%cells, m => pass%coarse%cells, k => (j + pass%before + 1)/2)
       call spread_row(m(1), n(1), pass%coarse%inverse(:, k), pass%coarse%values(:, k), pass%fine%cover(:, j), &
                       pass%values(:, j))
     end associate

@@ -51,7 +51,7 @@ contains
     real(dp) :: points
 
     if (self%changed == 0) return
-    call self%extension%set(operator%grid(), iterate%contact, info)
+    call self%extension%set(scene%rows, operator%grid(), iterate%contact, info)
     if (info%failed()) return
     if (iterate%prescribed) then
       if (self%changed < 0) state%uniform = 0.0_sp
@@ -66,10 +66,10 @@ contains
     end if
     call state%point_to(scene, iterate, pass)
     call pass%go(mark_contact, 0)
-    call self%extension%extend(state%direction)
+    call self%extension%extend(state%direction, info)
     call precondition_single(operator, state%direction, state%uniform, info)
     if (info%failed()) return
-    call self%extension%collect(state%uniform)
+    call self%extension%collect(state%uniform, info)
     self%changed = 0
     call find_total(self, scene, state, iterate)
   end subroutine set
@@ -108,10 +108,10 @@ contains
       pass%shift = pass%total(1)/self%total
       call pass%go(center_residuals, 0)
     end if
-    call self%extension%extend(state%residual)
+    call self%extension%extend(state%residual, info)
     call precondition_single(operator, state%residual, state%work, info)
     if (info%failed()) return
-    call self%extension%collect(state%work)
+    call self%extension%collect(state%work, info)
     call pass%go(sum_energy, 2)
     energy = pass%total(1)
     if (iterate%prescribed) return

@@ -86,8 +86,11 @@ contains
       if (lost .or. info%failed()) return
       call exchange(settings, scene, state, iterate, wrong, points, total)
       found = wrong == 0 .and. iterate%converged
-      if (found) call make_exact(settings, scene, state, iterate, found)
-      if (settings%coarse_grid) found = wrong <= WRONG_ON_COARSE*real(points, dp)
+      if (settings%coarse_grid) then
+        found = wrong <= WRONG_ON_COARSE*real(points, dp)
+      else if (found) then
+        call make_exact(settings, scene, state, iterate, found)
+      end if
       if (found) return
       if (wrong == 0) then
         if (to_tolerance .or. iterate%converged) then
