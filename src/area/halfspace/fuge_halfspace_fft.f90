@@ -18,8 +18,8 @@ module fuge_halfspace_fft
   private
 
   !> Equal rectangles in a grid on a half-space: call `set`, then solve. It keeps the coarser grids of its
-  !> solves, which takes a third of the memory again. A free grid of more than 4096 x 4096 cells keeps coefficients in
-  !> single precision only, and those only if a solve needs them: products compute the others anew.
+  !> solves, which takes a third of the memory again. A free grid of more than 4096 x 4096 cells computes
+  !> coefficients when a solve first needs them, and those of products in double precision for each product.
   !>
   !> Copy it by assignment, never by allocate(source=), because it owns plans of FFTW.
   type, extends(grid_operator), public :: fuge_halfspace_operator

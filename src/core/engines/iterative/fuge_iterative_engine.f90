@@ -1,8 +1,8 @@
 !> The iterative engine: from checked data to a solution, using only products with the operator.
 !>
-!> It solves in two stages: nested iteration over the coarser grids of the operator provides forces
-!> to start from (fuge_nested_grids); the contact set search on the finest grid improves them to
-!> the tolerance (fuge_contact_set_search).
+!> Earlier solutions (fuge_warm_start), or nested iteration over the coarser grids of the operator (fuge_nested_grids)
+!> and a window around a small contact (fuge_contact_window), provide forces to start from; unless these solve the
+!> finest grid already, the contact set search there improves them to the tolerance (fuge_contact_set_search).
 module fuge_iterative_engine
   use fuge_canonical_problem, only: canonical_problem
   use fuge_complete_contact, only: equal_forces_displace_nothing

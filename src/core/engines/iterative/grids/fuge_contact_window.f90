@@ -2,8 +2,8 @@
 !> vanish elsewhere: products with the window's cells are exact for its forces, and much cheaper.
 !>
 !> A coarse grid tells where the contact is. The window has a margin around it, and grows where the
-!> contact reaches its rim. Its forces are the start of the search on the whole grid, which then needs
-!> one product to see that no point outside the window touches.
+!> contact reaches its rim. One product tells whether its forces solve the whole grid
+!> (fuge_window_confirmation); otherwise the search there starts from them.
 module fuge_contact_window
   use fuge_contact_iterate, only: contact_iterate, start_iterate
   use fuge_contact_scene, only: contact_scene

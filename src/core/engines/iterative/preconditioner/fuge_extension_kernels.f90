@@ -1,8 +1,8 @@
 !> Rows of a grid and of the next coarser one, whose cells are twice as wide: sums over the cells of a coarser one,
 !> linear interpolation between these, and its transpose. The rows are circles.
 !>
-!> A row of the coarser grid has m cells, one of the finer grid n = 2*m or, if the last coarse cell has only one of them,
-!> n = 2*m - 1. No two arrays are the same, so that the compiler can do several numbers at once.
+!> A row of the coarser grid has m cells, one of the finer grid n = 2*m or, if the last coarse cell has only one of
+!> them, n = 2*m - 1. No two arrays are the same, so that the compiler can do several numbers at once.
 module fuge_extension_kernels
   use fuge_kinds, only: sp
   implicit none

@@ -186,9 +186,8 @@ contains
     cover(1:size(self%levels(1)%cover)) => self%levels(1)%cover
   end subroutine point_to_cover
 
-  !> E: give the `values` (n) of the set to open points too, whose own values do not count, but on as few cells as the
-  !> coarsest grid has, where they are to be zero. Error: FUGE_ERR_MEMORY, of
-  !> ranks only.
+  !> E: give the `values` (n) of the set to open points too, whose own values do not count. On no more cells than the
+  !> coarsest grid has they stay as they are, and are to be zero. Error: FUGE_ERR_MEMORY, of ranks only.
   subroutine extend(self, values, info)
     class(set_extension), intent(inout), target :: self
     real(sp), intent(inout), contiguous, target :: values(:)
@@ -208,8 +207,8 @@ contains
     end do
   end subroutine extend
 
-  !> E^T: distribute the `values` (n) of open points to the set; these are zero then, but on as few cells
-  !> as the coarsest grid has. Error: FUGE_ERR_MEMORY, of ranks only.
+  !> E^T: distribute the `values` (n) of open points to the set; these are zero then. On no more
+  !> cells than the coarsest grid has all stay as they are. Error: FUGE_ERR_MEMORY, of ranks only.
   subroutine collect(self, values, info)
     class(set_extension), intent(inout), target :: self
     real(sp), intent(inout), contiguous, target :: values(:)
