@@ -81,7 +81,7 @@ contains
     call stalls%start(MAX_STALLS)
     previous_residual = huge(previous_residual)
     to_tolerance = .false.
-    do while (.not. info%failed())
+    do while (.not. (state%is_lost .or. info%failed()))
       call solve_on_set(operator, settings, preconditioner, scene, to_tolerance, monitor, state, iterate, lost, info)
       if (lost .or. info%failed()) return
       call exchange(settings, scene, state, iterate, wrong, points, total)

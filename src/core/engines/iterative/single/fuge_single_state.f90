@@ -32,6 +32,8 @@ module fuge_single_state
     real(dp) :: largest = 0.0_dp
     !> The largest tension.
     real(dp) :: tension = 0.0_dp
+    !> A product has given what is not a number; maxima do not show it.
+    logical :: is_lost = .false.
     !> The displacements of the iterate are those of its forces, from a product in double precision.
     logical :: is_exact = .false.
   contains
@@ -87,6 +89,8 @@ contains
     if (info%failed()) return
     call state%point_to(scene, iterate, pass)
     call pass%go(sum_gaps, 2)
+    state%is_lost = .not. abs(pass%total(1)) <= huge(1.0_dp)
+    if (state%is_lost) return
     state%largest = pass%largest(2)
     state%drift = SINGLE_ERROR*state%largest
     iterate%motion = mean_in_contact(iterate, pass%total(1))
@@ -111,6 +115,8 @@ contains
     if (info%failed()) return
     call state%point_to(scene, iterate, pass)
     call pass%go(add_moves, 2)
+    state%is_lost = .not. abs(pass%total(1)) <= huge(1.0_dp)
+    if (state%is_lost) return
     state%drift = state%drift + SINGLE_ERROR*pass%largest(2)
     call settle(operator, scene, mean_in_contact(iterate, pass%total(1)), state, iterate)
   end subroutine move_forces
