@@ -182,7 +182,11 @@ contains
     iterate%segments%space = scene%rows%point_space
     iterate%prescribed = scene%prescribed
     if (allocated(iterate%at_upper)) iterate%at_upper = .false.
-    if (allocated(iterate%limited)) iterate%limited = 0
+    if (allocated(iterate%limited)) then
+      iterate%limited = 0
+      ! Where the start puts all points at their limits, their distances are needed before the first product.
+      iterate%displacement = 0.0_dp
+    end if
     if (present(start)) then
       iterate%force = start
     else if (allocated(scene%modes)) then
