@@ -43,11 +43,11 @@ contains
   subroutine run_single_gradients(operator, preconditioner, scene, tolerance, to_tolerance, state, iterate, lost, info)
     class(fuge_operator), intent(in) :: operator
     type(single_preconditioner), intent(inout) :: preconditioner
-    type(contact_scene), intent(in) :: scene
+    type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: tolerance
     logical, intent(in) :: to_tolerance
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     logical, intent(out) :: lost
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
@@ -130,9 +130,9 @@ contains
   subroutine estimate_compliance(operator, preconditioner, scene, state, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(single_preconditioner), intent(inout) :: preconditioner
-    type(contact_scene), intent(in) :: scene
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
     real(dp) :: energy, factor
@@ -149,10 +149,10 @@ contains
   !> Go to the minimum of the energy along the search direction, whose displacements are state%work; `step_length` is 0
   !> where the curvature is not positive, or nothing but rounding.
   subroutine step(scene, energy, state, iterate, step_length)
-    type(contact_scene), intent(in) :: scene
+    type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: energy
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     real(dp), intent(out) :: step_length
     type(point_pass) :: pass
     real(dp) :: curvature, mean

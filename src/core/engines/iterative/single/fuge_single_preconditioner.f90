@@ -19,6 +19,8 @@ module fuge_single_preconditioner
   type, public :: single_preconditioner
     !> Points that have changed since state%uniform was computed, at most; negative: it never was.
     integer, private :: changed = -1
+    !> Nothing has changed since the last `set`.
+    logical, private :: current = .false.
     !> Gives residuals to open points too, and forces of these to the set.
     type(set_extension), private :: extension
     !> The sum of `uniform` over the present set.
@@ -37,27 +39,41 @@ contains
     integer, intent(in) :: points
 
     if (self%changed >= 0) self%changed = self%changed + points
+    self%current = self%current .and. points == 0
   end subroutine note_changes
 
   !> Prepare for the contact set of `iterate`. Errors: those of the operator.
   subroutine set(self, operator, scene, state, iterate, info)
     class(single_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
-    type(contact_scene), intent(in) :: scene
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(in), target :: iterate
+    type(fuge_info), intent(inout) :: info
+
+    if (self%current) return
+    call self%extension%set(scene%rows, operator%grid(), iterate%contact, info)
+    if (info%failed()) return
+    if (.not. iterate%prescribed) then
+      call set_uniform(self, operator, scene, state, iterate, info)
+    else
+      if (self%changed < 0) state%uniform = 0.0_sp
+      self%changed = 0
+    end if
+    self%current = .not. info%failed()
+  end subroutine set
+
+  !> Compute state%uniform, unless that of a set which is close to this one serves. Errors: those of the operator.
+  subroutine set_uniform(self, operator, scene, state, iterate, info)
+    class(single_preconditioner), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(in), target :: iterate
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
     real(dp) :: points
 
-    if (self%changed == 0) return
-    call self%extension%set(scene%rows, operator%grid(), iterate%contact, info)
-    if (info%failed()) return
-    if (iterate%prescribed) then
-      if (self%changed < 0) state%uniform = 0.0_sp
-      self%changed = 0
-      return
-    end if
     points = real(iterate%segments%points, dp)
     if (self%changed > 0 .and. real(self%changed, dp) <= CLOSE*points &
         .and. points <= SMALL*real(size(scene%gap), dp)) then
@@ -72,13 +88,13 @@ contains
     call self%extension%collect(state%uniform, info)
     self%changed = 0
     call find_total(self, scene, state, iterate)
-  end subroutine set
+  end subroutine set_uniform
 
   subroutine find_total(self, scene, state, iterate)
     class(single_preconditioner), intent(inout) :: self
-    type(contact_scene), intent(in) :: scene
-    type(single_state), intent(in) :: state
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(in), target :: state
+    type(contact_iterate), intent(in), target :: iterate
     type(point_pass) :: pass
 
     call state%point_to(scene, iterate, pass)
@@ -93,9 +109,9 @@ contains
   subroutine apply(self, operator, scene, state, iterate, factor, energy, info)
     class(single_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
-    type(contact_scene), intent(in) :: scene
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(in), target :: iterate
     real(dp), intent(out) :: factor, energy
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass

@@ -119,9 +119,9 @@ contains
   !> of single precision?
   subroutine start_forces(operator, scene, state, iterate, possible, info)
     class(fuge_operator), intent(in) :: operator
-    type(contact_scene), intent(in) :: scene
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     logical, intent(out) :: possible
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
@@ -148,9 +148,9 @@ contains
   !> precision do not count? Then they follow from the distances.
   subroutine make_exact(settings, scene, state, iterate, exact)
     type(search_settings), intent(in) :: settings
-    type(contact_scene), intent(in) :: scene
-    type(single_state), intent(in) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(in), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     logical, intent(out) :: exact
     type(point_pass) :: pass
 
@@ -169,10 +169,10 @@ contains
   !> Forces of sum 1 in the contact, in which they have the sum `total` now; equal ones if that is not positive. Where the
   !> motion is prescribed, those that push.
   subroutine set_load(scene, total, state, iterate)
-    type(contact_scene), intent(in) :: scene
+    type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: total
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     type(point_pass) :: pass
 
     call state%point_to(scene, iterate, pass)
@@ -222,9 +222,9 @@ contains
   !> contact, and the `total` of their forces.
   subroutine exchange(settings, scene, state, iterate, wrong, points, total)
     type(search_settings), intent(in) :: settings
-    type(contact_scene), intent(in) :: scene
-    type(single_state), intent(in) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(in), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     integer, intent(out) :: wrong, points
     real(dp), intent(out) :: total
     type(point_pass) :: pass

@@ -77,9 +77,9 @@ contains
   !> Distances of the forces to start from. Errors: those of the operator, FUGE_ERR_MEMORY.
   subroutine start_displacements(operator, scene, state, iterate, info)
     class(fuge_operator), intent(in) :: operator
-    type(contact_scene), intent(in) :: scene
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
 
@@ -103,9 +103,9 @@ contains
   !> FUGE_ERR_MEMORY.
   subroutine move_forces(operator, scene, state, iterate, info)
     class(fuge_operator), intent(in) :: operator
-    type(contact_scene), intent(in) :: scene
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
 
@@ -133,9 +133,9 @@ contains
 
   !> Forces of sum 1, from which steps in single precision lead away by rounding, unless the motion is prescribed.
   subroutine restore_sum(scene, state, iterate)
-    type(contact_scene), intent(in) :: scene
-    type(single_state), intent(in) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(in), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     type(point_pass) :: pass
 
     if (scene%prescribed) return
@@ -150,10 +150,10 @@ contains
   !> those of the operator, FUGE_ERR_MEMORY.
   subroutine refresh(operator, scene, multiplied, state, iterate, info)
     class(fuge_operator), intent(in) :: operator
-    type(contact_scene), intent(in) :: scene
+    type(contact_scene), intent(in), target :: scene
     logical, intent(in) :: multiplied
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
     real(dp) :: mean
@@ -179,10 +179,10 @@ contains
   !> Residuals, penetration and least magnitude, where the mean distance in the contact is `mean`.
   subroutine settle(operator, scene, mean, state, iterate)
     class(fuge_operator), intent(in) :: operator
-    type(contact_scene), intent(in) :: scene
+    type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: mean
-    type(single_state), intent(inout) :: state
-    type(contact_iterate), intent(inout) :: iterate
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
     type(point_pass) :: pass
 
     iterate%motion = iterate%motion + (mean - state%offset)
