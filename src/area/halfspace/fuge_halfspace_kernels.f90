@@ -5,13 +5,14 @@ module fuge_halfspace_kernels
   use fuge_grid_convolution, only: grid_kernel
   use fuge_grid_plan, only: grid_plan
   use fuge_halfspace_grid, only: halfspace_grid
-  use fuge_halfspace_spectra, only: compute_spectra
+  use fuge_halfspace_spectra, only: bytes_needed, compute_spectra
   use fuge_halfspace_table, only: fill_halfspace_rows
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
+  use fuge_memory, only: check_memory
   use fuge_single_grid_convolution, only: round_kernel, single_kernel => grid_kernel
   use fuge_sliced_convolution, only: convolve_in_slices, kernel_values
-  use fuge_status, only: FUGE_DONE
+  use fuge_status, only: fuge_info, FUGE_DONE
   implicit none
   private
 
@@ -27,6 +28,8 @@ module fuge_halfspace_kernels
     type(single_kernel) :: single_influence, single_inverse
     !> Those in single precision are computed, or cannot be.
     logical :: rounded = .false.
+  contains
+    procedure :: has_double
   end type halfspace_kernels
 
   !> The kernels that an operator owns; a bitwise copy of it does not.
@@ -40,7 +43,6 @@ module fuge_halfspace_kernels
     procedure :: move_from
     procedure :: copy_from
     procedure :: compute_all
-    procedure :: has_double
     procedure :: require_double
     procedure :: require_single
     final :: finish
@@ -124,16 +126,6 @@ contains
     call self%clear()
   end subroutine finish
 
-  !> Are there kernels in double precision?
-  function has_double(self) result(has)
-    class(kernel_store), intent(in) :: self
-    logical :: has
-
-    call lock(LOCK_GRIDS)
-    has = self%kernels%influence%is_set() .and. self%kernels%inverse%is_set()
-    call unlock(LOCK_GRIDS)
-  end function has_double
-
   !> Compute the kernels in double precision unless they are there, on the circles of `plan`. Several threads may ask at
   !> once. `status`: 0, else memory is short.
   subroutine require_double(self, grid, plan, status)
@@ -141,42 +133,62 @@ contains
     type(halfspace_grid), intent(in) :: grid
     type(grid_plan), intent(in) :: plan
     integer, intent(out) :: status
-    real(dp) :: no_datum
 
     status = 0
     call lock(LOCK_GRIDS)
-    if (.not. (self%kernels%influence%is_set() .and. self%kernels%inverse%is_set())) then
-      no_datum = 0.0_dp
-      call compute_double(self%kernels, grid, plan, no_datum, status)
-    end if
+    if (.not. self%kernels%has_double()) call compute_later(self%kernels, grid, plan, status)
     call unlock(LOCK_GRIDS)
   end subroutine require_double
 
-  !> Compute the kernels in single precision unless that was done or tried before: from those in double precision, which
-  !> are not kept if they are not there. Several threads may ask at once.
+  !> Compute the kernels in single precision unless that was done, or their numbers were out of range: from those in
+  !> double precision, which are not kept if they are not there. Several threads may ask at once. Where memory is short
+  !> there are none this time.
   subroutine require_single(self, grid, plan)
     class(kernel_store), intent(in) :: self
     type(halfspace_grid), intent(in) :: grid
     type(grid_plan), intent(in) :: plan
     type(halfspace_kernels) :: double
-    real(dp) :: no_datum
     integer :: status
 
     call lock(LOCK_GRIDS)
-    if (.not. self%kernels%rounded) then
-      if (self%kernels%influence%is_set() .and. self%kernels%inverse%is_set()) then
-        call round_both(self%kernels%influence, self%kernels%inverse, self%kernels%single_influence, &
-                        self%kernels%single_inverse)
-      else
-        no_datum = 0.0_dp
-        call compute_double(double, grid, plan, no_datum, status)
-        if (status == 0) call round_both(double%influence, double%inverse, self%kernels%single_influence, &
-                                          self%kernels%single_inverse)
+    associate (kernels => self%kernels)
+      if (.not. kernels%rounded) then
+        status = 0
+        if (kernels%has_double()) then
+          call round_both(kernels%influence, kernels%inverse, kernels%single_influence, kernels%single_inverse)
+        else
+          call compute_later(double, grid, plan, status)
+          if (status == 0) call round_both(double%influence, double%inverse, kernels%single_influence, &
+                                           kernels%single_inverse)
+        end if
+        kernels%rounded = status == 0
       end if
-      self%kernels%rounded = .true.
-    end if
+    end associate
     call unlock(LOCK_GRIDS)
   end subroutine require_single
+
+  !> Are there kernels in double precision? The caller holds the lock where other threads may compute them.
+  function has_double(self) result(has)
+    class(halfspace_kernels), intent(in) :: self
+    logical :: has
+
+    has = self%influence%is_set() .and. self%inverse%is_set()
+  end function has_double
+
+  !> Compute the kernels in double precision of an operator that did without so far, if the machine has the memory.
+  subroutine compute_later(kernels, grid, plan, status)
+    type(halfspace_kernels), intent(inout) :: kernels
+    type(halfspace_grid), intent(in) :: grid
+    type(grid_plan), intent(in) :: plan
+    integer, intent(out) :: status
+    type(fuge_info) :: info
+    real(dp) :: no_datum
+
+    no_datum = 0.0_dp
+    call check_memory(bytes_needed(grid, plan%length), 'kernels', info)
+    status = info%status
+    if (status == FUGE_DONE) call compute_double(kernels, grid, plan, no_datum, status)
+  end subroutine compute_later
 
   !> Compute all kernels, those in single precision if that is `suited` to them. No other thread may know the store yet.
   !> `datum` is what is subtracted from all coefficients. `status`: 0, else memory is short.
