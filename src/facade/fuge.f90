@@ -4,6 +4,7 @@ module fuge
   use fuge_core
   use fuge_fe
   use fuge_files
+  use fuge_layers
   use fuge_punch
   use fuge_stress
   implicit none

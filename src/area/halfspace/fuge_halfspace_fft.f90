@@ -14,6 +14,7 @@ module fuge_halfspace_fft
   use fuge_operator_type, only: fuge_operator
   use fuge_single_grid_plan, only: single_plan => grid_plan
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
+  use fuge_wave_mixture, only: wave_mixture
   implicit none
   private
 
@@ -69,17 +70,20 @@ contains
   !> datum at infinity: displacements are zero, as those of `fuge_halfplane_operator`, at the distance of twice the
   !> length of the grid along the free direction, ny*spacing_y for FUGE_PERIODIC_X. `measured`
   !> (default .false.) lets FFTW time its algorithms and take the fastest.
-  !> The arguments are nine, because the last three are optional and named by the caller.
+  !> `body`: the surface of `fuge_layered_body`, if the body has layers; `e_star` is theirs then, and on a rigid base equal
+  !> forces displace a periodic surface too.
+  !> The arguments are ten, because the last four are optional and named by the caller.
   !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
   !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a
   !> library without FFTW.
-  subroutine set(self, nx, ny, spacing_x, spacing_y, e_star, info, element, boundary, measured)
+  subroutine set(self, nx, ny, spacing_x, spacing_y, e_star, info, element, boundary, measured, body)
     class(fuge_halfspace_operator), intent(inout) :: self
     integer, intent(in) :: nx, ny
     real(dp), intent(in) :: spacing_x, spacing_y, e_star
     type(fuge_info), intent(out) :: info
     integer, intent(in), optional :: element, boundary
     logical, intent(in), optional :: measured
+    type(wave_mixture), intent(in), optional :: body
     type(fuge_halfspace_operator) :: new
 
     new%surface%cells = [nx, ny]
@@ -88,6 +92,7 @@ contains
     if (present(element)) new%surface%element = element
     if (present(boundary)) new%surface%boundary = boundary
     if (present(measured)) new%measured = measured
+    if (present(body)) new%surface%body = body
     call check_grid(new%surface, info)
     if (info%failed()) return
     call complete(new%surface)

@@ -10,6 +10,7 @@ module fuge_halfspace_grid
   use fuge_rectangle_checks, only: check_area_element, check_area_modulus
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, &
     FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
+  use fuge_wave_mixture, only: wave_mixture
   implicit none
   private
 
@@ -45,6 +46,8 @@ module fuge_halfspace_grid
     real(dp) :: e_star = 0.0_dp
     !> Where a force displaces nothing if the surface is periodic in one direction only: a distance along the other one.
     real(dp) :: reach = 0.0_dp
+    !> The body, if it is no half-space.
+    type(wave_mixture) :: body
   end type halfspace_grid
 
 contains

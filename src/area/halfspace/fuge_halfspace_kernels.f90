@@ -5,8 +5,7 @@ module fuge_halfspace_kernels
   use fuge_grid_convolution, only: grid_kernel
   use fuge_grid_plan, only: grid_plan
   use fuge_halfspace_grid, only: halfspace_grid
-  use fuge_halfspace_spectra, only: bytes_needed, compute_spectra
-  use fuge_halfspace_table, only: fill_halfspace_rows
+  use fuge_halfspace_spectra, only: bytes_needed, compute_spectra, fill_rows
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
   use fuge_memory, only: check_memory
@@ -259,7 +258,7 @@ contains
     integer, intent(out) :: stat
 
     stat = FUGE_DONE
-    call fill_halfspace_rows(self%grid%spacing, self%grid%e_star, self%grid%element, begin, count, table, stat)
+    call fill_rows(self%grid, begin, count, table, stat)
   end subroutine fill
 
 end module fuge_halfspace_kernels

@@ -4,14 +4,15 @@ module fuge_halfspace_spectra
   use fuge_grid_plan, only: grid_plan
   use fuge_halfplane_fft, only: FUGE_FREE
   use fuge_halfspace_grid, only: cyclic, halfspace_grid, periodic, FUGE_PERIODIC_X, FUGE_PERIODIC_Y
-  use fuge_halfspace_table, only: fill_halfspace_table
-  use fuge_halfspace_waves, only: fill_periodic_eigenvalues, fill_periodic_kernel, fill_strip_kernel
+  use fuge_halfspace_table, only: fill_halfspace_rows
+  use fuge_halfspace_waves, only: fill_free_rows, fill_periodic_eigenvalues, fill_periodic_kernel, &
+    fill_strip_kernel
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE
   implicit none
   private
 
-  public :: bytes_needed, compute_spectra, invert
+  public :: bytes_needed, compute_spectra, fill_rows, invert
 
 contains
 
@@ -28,8 +29,7 @@ contains
 
     length = plan%length
     allocate (eigenvalue(0:length(2)/2, 0:length(1)/2), stat=status)
-    if (status == 0) call fill_periodic_eigenvalues(length, grid%spacing, grid%e_star, grid%element, &
-                                                    eigenvalue, status)
+    if (status == 0) call fill_periodic_eigenvalues(grid, length, eigenvalue, status)
     if (status == 0) then
       call invert(eigenvalue, grid%e_star*sqrt(product(grid%spacing)))
       call inverse%set(plan, [.false., .false.], eigenvalue, status)
@@ -37,7 +37,7 @@ contains
     if (status == 0) call compute_influence(grid, plan, influence, datum, status)
   end subroutine compute_spectra
 
-  !> The inverse of all eigenvalues but that of the constant, for which any positive number is valid; that of the
+  !> The inverse of all eigenvalues. Where that of the constant is 0 any positive number is valid for it; that of the
   !> longest wave has the right size. If there is no other wave, it is `alone`.
   pure subroutine invert(eigenvalue, alone)
     real(dp), intent(inout) :: eigenvalue(0:, 0:)
@@ -45,7 +45,9 @@ contains
     real(dp) :: longest
     integer :: k
 
-    longest = maxval(eigenvalue(0:min(1, ubound(eigenvalue, 1)), 0:min(1, ubound(eigenvalue, 2))))
+    longest = eigenvalue(0, 0)
+    if (.not. longest > 0.0_dp) longest = maxval(eigenvalue(0:min(1, ubound(eigenvalue, 1)), &
+                                                            0:min(1, ubound(eigenvalue, 2))))
     do k = 0, ubound(eigenvalue, 2)
       eigenvalue(merge(1, 0, k == 0):, k) = 1.0_dp/eigenvalue(merge(1, 0, k == 0):, k)
     end do
@@ -71,11 +73,9 @@ contains
     allocate (spectrum(0:extent(2), 0:extent(1)), stat=status)
     if (status /= 0) return
     if (all(periodic(grid))) then
-      call fill_periodic_kernel(grid%period, closed, grid%spacing, grid%e_star, grid%element, &
-                                spectrum, status)
+      call fill_periodic_kernel(grid, grid%period, closed, spectrum, status)
     else if (grid%boundary == FUGE_PERIODIC_X) then
-      call fill_strip_kernel(1, grid%period(1), closed(1), grid%reach, grid%spacing, grid%e_star, &
-                             grid%element, spectrum, datum, status)
+      call fill_strip_kernel(grid, 1, grid%period(1), closed(1), spectrum, datum, status)
     end if
     if (status == 0 .and. (.not. closed(1) .or. grid%boundary == FUGE_PERIODIC_Y)) then
       allocate (table(0:extent(1), 0:extent(2)), stat=status)
@@ -102,16 +102,30 @@ contains
     status = FUGE_DONE
     closed = cyclic(grid)
     if (grid%boundary == FUGE_FREE) then
-      call fill_halfspace_table(grid%spacing, grid%e_star, grid%element, table, status)
+      call fill_rows(grid, 0, size(table, 2), table, status)
     else if (grid%boundary == FUGE_PERIODIC_Y) then
-      call fill_strip_kernel(2, grid%period(2), closed(2), grid%reach, grid%spacing, grid%e_star, &
-                             grid%element, table, datum, status)
+      call fill_strip_kernel(grid, 2, grid%period(2), closed(2), table, datum, status)
     else
       call transpose_blocks(spectrum, table)
     end if
     if (status == 0 .and. .not. closed(1)) call plan%transform_even(1, padded, table, status)
     if (status == 0) call transpose_blocks(table, spectrum)
   end subroutine transform_along_x
+
+  !> Influence coefficients of a free surface: `table` (0:, begin:), the rows from number `begin` on of a table of `rows`.
+  !> `status` as in an allocate statement.
+  subroutine fill_rows(grid, begin, rows, table, status)
+    type(halfspace_grid), intent(in) :: grid
+    integer, intent(in) :: begin, rows
+    real(dp), intent(inout), contiguous :: table(:, :)
+    integer, intent(out) :: status
+
+    if (grid%body%is_set()) then
+      call fill_free_rows(grid, begin, rows, table, status)
+    else
+      call fill_halfspace_rows(grid%spacing, grid%e_star, grid%element, begin, rows, table, status)
+    end if
+  end subroutine fill_rows
 
   !> transpose() of a block after the other, each of which stays in cache.
   pure subroutine transpose_blocks(a, b)

@@ -16,6 +16,7 @@ module fuge_halfplane_fft
   use fuge_operator_type, only: fuge_operator
   use fuge_point_chunks, only: chunk_count, chunked_pass
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
+  use fuge_wave_mixture, only: wave_mixture
   implicit none
   private
 
@@ -69,18 +70,20 @@ contains
   !> two are the same on a uniform grid. `boundary` FUGE_FREE (default): the matrix of
   !> `fuge_halfplane_matrix`; FUGE_PERIODIC: the period is n*spacing, and displacements
   !> count from the mean of the surface, so that A is singular: equal forces on all
-  !> cells displace nothing. `measured` (default .false.) lets FFTW time its algorithms and take the fastest. The
-  !> arguments are eight, because the last three are optional and named by the caller.
+  !> cells displace nothing, unless the body lies on a rigid base. `measured` (default .false.) lets FFTW time its
+  !> algorithms and take the fastest. `body`: the surface of `fuge_layered_body`, if the body has layers; `e_star` is theirs
+  !> then. The arguments are nine, because the last four are optional and named by the caller.
   !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
   !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a
   !> library without FFTW.
-  subroutine set(self, n, spacing, e_star, info, element, boundary, measured)
+  subroutine set(self, n, spacing, e_star, info, element, boundary, measured, body)
     class(fuge_halfplane_operator), intent(inout) :: self
     integer, intent(in) :: n
     real(dp), intent(in) :: spacing, e_star
     type(fuge_info), intent(out) :: info
     integer, intent(in), optional :: element, boundary
     logical, intent(in), optional :: measured
+    type(wave_mixture), intent(in), optional :: body
     type(fuge_halfplane_operator) :: new
 
     new%line%cells = n
@@ -88,6 +91,7 @@ contains
     new%line%e_star = e_star
     if (present(element)) new%line%element = element
     if (present(boundary)) new%line%boundary = boundary
+    if (present(body)) new%line%body = body
     call check_line(new%line, info)
     if (.not. info%failed()) call plan_transforms(new, info, measured)
     if (.not. info%failed()) call compute_line_spectra(new%line, new%plan, new%influence, new%inverse, &
@@ -272,7 +276,7 @@ contains
     if (line%cells < 1) return
     allocate (wider, stat=stat)
     if (stat /= 0) return
-    call wider%set(line%cells, line%spacing, line%e_star, info, line%element, line%boundary)
+    call wider%set(line%cells, line%spacing, line%e_star, info, line%element, line%boundary, body=line%body)
     if (.not. info%failed()) call move_alloc(wider, coarse)
   end subroutine coarsen
 

@@ -11,6 +11,7 @@ module fuge_halfplane_line
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, &
     FUGE_ERR_SIZE, FUGE_ERR_WIDTH
+  use fuge_wave_mixture, only: wave_mixture
   implicit none
   private
 
@@ -32,7 +33,10 @@ module fuge_halfplane_line
     integer :: element = FUGE_MEAN
     integer :: boundary = FUGE_FREE
     real(dp) :: spacing = 0.0_dp
+    !> Of the surface: short waves displace it by 2/(e_star q), others too on a half-plane.
     real(dp) :: e_star = 0.0_dp
+    !> The body, if it is no half-plane.
+    type(wave_mixture) :: body
   end type halfplane_line
 
 contains

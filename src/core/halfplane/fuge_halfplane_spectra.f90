@@ -1,9 +1,9 @@
 !> The spectra of a line of cells on a half-plane: those of its influence matrix and of its preconditioner.
 module fuge_halfplane_spectra
-  use fuge_constants, only: PI
   use fuge_convolution, only: convolution_kernel, transform_padded
-  use fuge_halfplane_line, only: halfplane_line, inverse_eigenvalue, log_of_distance, FUGE_PERIODIC
+  use fuge_halfplane_line, only: halfplane_line, FUGE_PERIODIC
   use fuge_kinds, only: dp
+  use fuge_line_numbers, only: line_numbers
   use fuge_line_plan, only: line_plan
   use fuge_number_text, only: text
   use fuge_point_chunks, only: chunked_pass
@@ -11,13 +11,13 @@ module fuge_halfplane_spectra
   implicit none
   private
 
-  public :: compute_line_spectra, free_factor
+  public :: compute_line_spectra
 
-  !> Fills `values`, of the numbers 0, 1, .., with the eigenvalues of the preconditioner on a circle of `length` cells,
-  !> or without a length with the logarithms of distances. Threads share it, because each number takes long.
+  !> Fills `values`, of the numbers 0, 1, .., with the eigenvalues of the preconditioner, or with the influence at
+  !> distances. Threads share it, because each number takes long.
   type, extends(chunked_pass) :: fill_pass
-    type(halfplane_line) :: line
-    integer :: length = 0
+    type(line_numbers), pointer :: numbers => null()
+    logical :: waves = .true.
     real(dp), pointer, contiguous :: values(:) => null()
   contains
     procedure :: do_chunk => fill_chunk
@@ -32,23 +32,23 @@ contains
 
     if (k < 1) return
     do i = first, last
-      if (self%length > 0) then
-        self%values(i) = inverse_eigenvalue(self%line, self%length, i - 1)
+      if (self%waves) then
+        self%values(i) = self%numbers%inverse_of_wave(i - 1)
       else
-        self%values(i) = log_of_distance(self%line, i - 1)
+        self%values(i) = self%numbers%at_distance(i - 1)
       end if
     end do
   end subroutine fill_chunk
 
   !> The `values` (n) of the pass.
-  subroutine fill(line, length, values)
-    type(halfplane_line), intent(in) :: line
-    integer, intent(in) :: length
+  subroutine fill(numbers, waves, values)
+    type(line_numbers), intent(in), target :: numbers
+    logical, intent(in) :: waves
     real(dp), intent(out), contiguous, target :: values(:)
     type(fill_pass) :: pass
 
-    pass%line = line
-    pass%length = length
+    pass%numbers => numbers
+    pass%waves = waves
     pass%values => values
     call pass%run(size(values), 0)
   end subroutine fill
@@ -62,21 +62,23 @@ contains
     real(dp), intent(inout) :: datum
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: inverse_spectrum(:)
+    type(line_numbers), target :: numbers
     integer :: length, status
 
     length = plan%length
-    allocate (inverse_spectrum(0:length/2), stat=status)
+    call numbers%prepare(line, length, status)
+    if (status == 0) allocate (inverse_spectrum(0:length/2), stat=status)
     if (status == 0) then
-      call fill(line, length, inverse_spectrum)
+      call fill(numbers, .true., inverse_spectrum)
       call inverse%set_cyclic(length, inverse_spectrum, status)
     end if
     if (status == FUGE_DONE .and. line%boundary == FUGE_PERIODIC) then
       inverse_spectrum = (1.0_dp/real(length, dp))**2/inverse_spectrum
-      inverse_spectrum(0) = 0.0_dp
+      if (.not. line%body%has_rigid_base()) inverse_spectrum(0) = 0.0_dp
       call influence%set_cyclic(length, inverse_spectrum, status)
     else if (status == FUGE_DONE) then
       deallocate (inverse_spectrum)
-      call compute_free_spectrum(line, plan, influence, datum, status)
+      call compute_free_spectrum(numbers, plan, influence, datum, status)
     end if
     if (status /= FUGE_DONE) call report(info, FUGE_ERR_MEMORY, 'out of memory: n = '//text(line%cells)//' needs ' &
                                          //text(48.0_dp*real(line%cells, dp))//' bytes')
@@ -87,8 +89,8 @@ contains
   !>
   !> The datum is the mean over the circle. Without it the eigenvalue of the constant, the sum of
   !> all coefficients, would be the largest by far, and so would its rounding error.
-  subroutine compute_free_spectrum(line, plan, influence, datum, status)
-    type(halfplane_line), intent(in) :: line
+  subroutine compute_free_spectrum(numbers, plan, influence, datum, status)
+    type(line_numbers), intent(in), target :: numbers
     type(line_plan), intent(in) :: plan
     type(convolution_kernel), intent(inout) :: influence
     real(dp), intent(inout) :: datum
@@ -100,25 +102,14 @@ contains
     half = plan%length
     allocate (coefficient(0:half), even(0:half/2), odd(half/2), stat=status)
     if (status /= 0) return
-    call fill(line, 0, coefficient)
+    call fill(numbers, .false., coefficient)
     mean = (coefficient(0) + coefficient(half) + 2.0_dp*sum(coefficient(1:half - 1)))/real(2*half, dp)
-    call free_factor(line, mean, factor, datum)
+    call numbers%split(mean, factor, datum)
     coefficient = factor*(coefficient - mean)
     call transform_padded(plan, coefficient, even, odd, status)
     if (status /= FUGE_DONE) return
     even(0) = 0.0_dp
     call influence%set_padded(half, even, odd, status)
   end subroutine compute_free_spectrum
-
-  !> Coefficients of a free surface are `factor` times ln of the distance less its `mean`, which makes this `datum`.
-  pure subroutine free_factor(line, mean, factor, datum)
-    type(halfplane_line), intent(in) :: line
-    real(dp), intent(in) :: mean
-    real(dp), intent(out) :: factor, datum
-
-    factor = -2.0_dp/(PI*line%e_star)
-    ! In units of the spacing, as the coefficients: the D of the matrix is 2 n.
-    datum = factor*(mean - log(2.0_dp*real(line%cells, dp)))
-  end subroutine free_factor
 
 end module fuge_halfplane_spectra

@@ -1,8 +1,8 @@
 !> The spectra of a line of cells that ranks share, and products with them.
 module fuge_line_kernel
-  use fuge_halfplane_line, only: halfplane_line, inverse_eigenvalue, log_of_distance, FUGE_PERIODIC
-  use fuge_halfplane_spectra, only: free_factor
+  use fuge_halfplane_line, only: halfplane_line, FUGE_PERIODIC
   use fuge_kinds, only: dp
+  use fuge_line_numbers, only: line_numbers
   use fuge_line_transform, only: line_transform
   use fuge_rank_communicator, only: rank_communicator
   use fuge_status, only: fuge_info, require_memory
@@ -52,34 +52,37 @@ contains
     type(line_kernel), intent(inout) :: influence, inverse
     real(dp), intent(inout) :: datum
     type(fuge_info), intent(inout) :: info
+    type(line_numbers) :: numbers
     integer :: k, l, length, stat, wave
 
     length = transform%rows*transform%columns
-    allocate (inverse%spectrum(transform%columns, transform%own_waves), &
-              influence%spectrum(transform%columns, transform%own_waves), stat=stat)
+    call numbers%prepare(line, length, stat)
+    if (stat == 0) allocate (inverse%spectrum(transform%columns, transform%own_waves), &
+                            influence%spectrum(transform%columns, transform%own_waves), stat=stat)
     call require_memory(stat, 'the spectra of', line%cells, 'cells', info)
     call group%agree(info)
     if (stat /= 0 .or. info%failed()) return
     do k = 1, transform%own_waves
       do l = 1, transform%columns
         wave = transform%first_wave + k - 1 + transform%rows*(l - 1)
-        inverse%spectrum(l, k) = inverse_eigenvalue(line, length, min(wave, length - wave))
+        inverse%spectrum(l, k) = numbers%inverse_of_wave(min(wave, length - wave))
       end do
     end do
     influence%twisted = line%boundary /= FUGE_PERIODIC
     if (influence%twisted) then
-      call compute_free(line, group, transform, influence%spectrum, datum)
+      call compute_free(numbers, group, transform, influence%spectrum, datum)
     else
       influence%spectrum = (1.0_dp/real(length, dp))**2/inverse%spectrum
-      if (transform%first_wave == 0 .and. transform%own_waves > 0) influence%spectrum(1, 1) = 0.0_dp
+      if (transform%first_wave == 0 .and. transform%own_waves > 0 .and. .not. line%body%has_rigid_base()) &
+        influence%spectrum(1, 1) = 0.0_dp
     end if
   end subroutine compute_kernels
 
   !> The spectrum of a free surface: with a_j = a_(-j) the influence of cells j apart, the number k is the sum of
   !> a_j cos(2 pi j (k + 1/4)/N), |j| < N, twice the real part of what a twisted transform makes of a_0 .. a_(N-1), less
   !> a_0.
-  subroutine compute_free(line, group, transform, spectrum, datum)
-    type(halfplane_line), intent(in) :: line
+  subroutine compute_free(numbers, group, transform, spectrum, datum)
+    type(line_numbers), intent(in) :: numbers
     type(rank_communicator), intent(in) :: group
     type(line_transform), intent(in) :: transform
     real(dp), intent(inout), contiguous :: spectrum(:, :)
@@ -90,22 +93,22 @@ contains
     length = real(transform%rows, dp)*real(transform%columns, dp)
     mean = 0.0_dp
     do j = 1, transform%own_columns
-      column = [(log_of_distance(line, transform%first_column + j - 1 + transform%columns*k), k=0, transform%rows - 1)]
+      column = [(numbers%at_distance(transform%first_column + j - 1 + transform%columns*k), k=0, transform%rows - 1)]
       call transform%set_columns(j, column)
       mean = mean + sum(column)
     end do
     call group%add(mean)
     ! The mean over the circle of 2 N cells, as fuge_halfplane_spectra has it.
-    mean = (2.0_dp*mean - log_of_distance(line, 0) &
-            + log_of_distance(line, transform%rows*transform%columns))/(2.0_dp*length)
-    call free_factor(line, mean(1), factor, datum)
+    mean = (2.0_dp*mean - numbers%at_distance(0) &
+            + numbers%at_distance(transform%rows*transform%columns))/(2.0_dp*length)
+    call numbers%split(mean(1), factor, datum)
     do j = 1, transform%own_columns
       call transform%get_column(j, column)
       call transform%set_columns(j, factor*(column - mean(1)))
     end do
     call transform%waves_from_columns(.true.)
     call transform%transform_waves(spectrum)
-    spectrum = (2.0_dp*spectrum - factor*(log_of_distance(line, 0) - mean(1)))/length
+    spectrum = (2.0_dp*spectrum - factor*(numbers%at_distance(0) - mean(1)))/length
   end subroutine compute_free
 
 end module fuge_line_kernel

@@ -4,8 +4,7 @@ module fuge_slab_spectra
   use, intrinsic :: iso_c_binding, only: c_double, c_intptr_t
   use fuge_halfplane_fft, only: FUGE_FREE
   use fuge_halfspace_grid, only: cyclic, halfspace_grid
-  use fuge_halfspace_spectra, only: invert
-  use fuge_halfspace_table, only: fill_halfspace_rows
+  use fuge_halfspace_spectra, only: fill_rows, invert
   use fuge_halfspace_waves, only: fill_periodic_columns
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
@@ -63,8 +62,7 @@ contains
     integer :: stat
 
     allocate (spectrum(0:cells(2)/2, 0:kernel%waves - 1), stat=stat)
-    if (stat == 0 .and. kernel%waves > 0) call fill_periodic_columns(cells, [.true., .true.], grid%spacing, &
-                                                                     grid%e_star, grid%element, kernel%first, &
+    if (stat == 0 .and. kernel%waves > 0) call fill_periodic_columns(grid, cells, [.true., .true.], kernel%first, &
                                                                      spectrum, stat)
     if (stat /= 0) call report_no_memory(plan, info)
     call plan%group%agree(info)
@@ -106,7 +104,7 @@ contains
     rows = exchange%row_range(plan%group%number())
     allocate (spectrum(0:extent(2), 0:kernel%waves - 1), table(0:extent(1), rows(2)), stat=status)
     if (status == 0 .and. rows(2) > 0) then
-      call fill_rows(grid, closed, extent(2) + 1, rows(1), table, status)
+      call fill_any_rows(grid, closed, extent(2) + 1, rows(1), table, status)
       if (status == 0 .and. .not. closed(1)) call plan%plan%transform_even(1, padded(1), table, status)
     end if
     if (status == 0) call exchange%set(status)
@@ -181,21 +179,23 @@ contains
   end subroutine transpose_columns
 
   !> Coefficients, or waves in a direction that is `closed`: the rows from number `first` on of a table of `rows`.
-  subroutine fill_rows(grid, closed, rows, first, table, status)
+  subroutine fill_any_rows(grid, closed, rows, first, table, status)
     type(halfspace_grid), intent(in) :: grid
     logical, intent(in) :: closed(2)
     integer, intent(in) :: rows, first
     real(dp), intent(inout), contiguous :: table(:, :)
     integer, intent(out) :: status
+    type(halfspace_grid) :: exchanged
 
     if (grid%boundary == FUGE_FREE) then
-      call fill_halfspace_rows(grid%spacing, grid%e_star, grid%element, first, rows, table, status)
+      call fill_rows(grid, first, rows, table, status)
     else
       ! The columns of the kernel with x and y exchanged.
-      call fill_periodic_columns(grid%period(2:1:-1), closed(2:1:-1), grid%spacing(2:1:-1), grid%e_star, grid%element, &
-                                 first, table, status)
+      exchanged = grid
+      exchanged%spacing = grid%spacing(2:1:-1)
+      call fill_periodic_columns(exchanged, grid%period(2:1:-1), closed(2:1:-1), first, table, status)
     end if
-  end subroutine fill_rows
+  end subroutine fill_any_rows
 
   subroutine report_no_memory(plan, info)
     type(slab_plan), intent(in) :: plan

@@ -1,0 +1,1 @@
+/* fuge - frictionless elastic contact: coated and layered bodies. */

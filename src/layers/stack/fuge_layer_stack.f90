@@ -1,0 +1,98 @@
+!> The waves of a body of elastic layers: how much more or less than a half-space of its top layer it yields.
+module fuge_layer_stack
+  use fuge_kinds, only: dp
+  use fuge_layer_matrices, only: half_space_compliance, layer_of, rest_on, slide_on
+  use fuge_mixture_fit, only: wave_symbol
+  implicit none
+  private
+
+  !> Layers on a half-space or a rigid base, from the surface down.
+  type, extends(wave_symbol), public :: layer_stack
+    !> Thicknesses, (layers), length.
+    real(dp), allocatable :: thickness(:)
+    !> Shear moduli over that of the top layer, the last one of the substrate, infinite if it is rigid; Poisson's
+    !> ratios; (layers + 1).
+    real(dp), allocatable :: shear(:), poisson(:)
+    !> Is the bottom of each layer bonded? Otherwise it slides without friction. (layers)
+    logical, allocatable :: bonded(:)
+  contains
+    procedure :: wave_factor
+    procedure :: compliance_below
+    procedure :: factor_of_longest
+    procedure :: has_layers
+    procedure :: is_rigid
+  end type layer_stack
+
+contains
+
+  !> Is it more than a half-space?
+  pure function has_layers(self) result(has)
+    class(layer_stack), intent(in) :: self
+    logical :: has
+
+    has = .false.
+    if (allocated(self%thickness)) has = size(self%thickness) > 0
+  end function has_layers
+
+  !> Is the base rigid?
+  pure function is_rigid(self) result(rigid)
+    class(layer_stack), intent(in) :: self
+    logical :: rigid
+
+    rigid = self%shear(size(self%shear)) > huge(1.0_dp)
+  end function is_rigid
+
+  !> T of waves far longer than all layers: the ratio of the plane-strain moduli of top layer and substrate, 0 on a rigid
+  !> base.
+  pure function factor_of_longest(self) result(factor)
+    class(layer_stack), intent(in) :: self
+    real(dp) :: factor
+
+    factor = 1.0_dp
+    if (.not. self%has_layers()) return
+    associate (n => size(self%shear))
+      factor = (1.0_dp - self%poisson(n))/self%shear(n)/(1.0_dp - self%poisson(1))
+    end associate
+  end function factor_of_longest
+
+  !> T: a wave `q` > 0 of pressure, 1/length, displaces the surface by 2 T/(E q) times itself, E the plane-strain modulus
+  !> of the top layer. Near 1 for short waves; for long ones the ratio of the moduli of top layer and substrate.
+  pure function wave_factor(self, q) result(factor)
+    class(layer_stack), intent(in) :: self
+    real(dp), intent(in) :: q
+    real(dp) :: factor
+    real(dp) :: compliance(3)
+
+    factor = 1.0_dp
+    if (.not. self%has_layers()) return
+    compliance = self%compliance_below(0, q)
+    factor = compliance(3)/(2.0_dp*(1.0_dp - self%poisson(1)))
+  end function wave_factor
+
+  !> The compliance of what is below the first `above` layers to waves `q`, [xx, xz, zz], for tractions over
+  !> 2 q times the shear modulus of the top layer.
+  pure function compliance_below(self, above, q) result(compliance)
+    class(layer_stack), intent(in) :: self
+    integer, intent(in) :: above
+    real(dp), intent(in) :: q
+    real(dp) :: compliance(3)
+    integer :: k, layers
+
+    layers = size(self%thickness)
+    compliance = 0.0_dp
+    if (.not. self%is_rigid()) compliance = half_space_compliance(self%poisson(layers + 1))/self%shear(layers + 1)
+    do k = layers, above + 1, -1
+      ! In units of this layer, and back.
+      compliance = self%shear(k)*compliance
+      associate (layer => layer_of(q*self%thickness(k), self%poisson(k)))
+        if (self%bonded(k)) then
+          compliance = rest_on(layer, compliance)
+        else
+          compliance = slide_on(layer, compliance(3))
+        end if
+      end associate
+      compliance = compliance/self%shear(k)
+    end do
+  end function compliance_below
+
+end module fuge_layer_stack

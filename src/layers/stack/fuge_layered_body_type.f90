@@ -1,0 +1,296 @@
+!> Coated and layered bodies: what the operators of lines and areas have to know of them.
+module fuge_layered_body_type
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+  use fuge_kinds, only: dp
+  use fuge_layer_stack, only: layer_stack
+  use fuge_mixture_fit, only: fit_mixture, wave_symbol
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE, FUGE_ERR_SIZE, &
+    FUGE_ERR_WIDTH
+  use fuge_wave_mixture, only: wave_mixture
+  implicit none
+  private
+
+  !> The largest ratio of two thicknesses or moduli.
+  real(dp), parameter :: LARGEST_RATIO = 1.0e8_dp
+  !> Long waves are those of the substrate to rounding, or on a rigid base negligible, from this many times the length on
+  !> at which the layers and the substrate displace the surface equally.
+  real(dp), parameter :: LONG = 1.0e3_dp, LONG_ON_RIGID = 30.0_dp
+  !> On a rigid base that length grows with this power of the ratio of moduli: a stiff film bends as a plate.
+  real(dp), parameter :: POWER_ON_RIGID = 0.34_dp
+
+  !> Two bodies in contact, of which one or both have layers.
+  type, public :: fuge_layered_body
+    private
+    type(layer_stack) :: first, second
+    !> Shares of the two bodies, and of a half-space without layers, in the displacement by short waves; sum 1.
+    real(dp) :: share(2) = 0.0_dp
+    !> 1/e_star = (1 - nu^2)/E of the two top layers, added up.
+    real(dp) :: modulus = 0.0_dp
+    type(wave_mixture) :: mixture
+    real(dp) :: error = 0.0_dp
+  contains
+    procedure :: set
+    procedure :: e_star
+    procedure :: surface
+    procedure :: factor_of_wave
+    procedure :: is_set
+  end type fuge_layered_body
+
+  !> T of the two bodies together.
+  type, extends(wave_symbol) :: contact_symbol
+    type(layer_stack) :: stack(2)
+    real(dp) :: share(2) = 0.0_dp
+  contains
+    procedure :: wave_factor
+  end type contact_symbol
+
+contains
+
+  !> Describe a body of layers, and the other one.
+  !>
+  !> `thickness` (layers >= 0), length, from the surface down. `young` force per length squared, and `poisson`, from 0 to
+  !> 0.5, both (layers + 1): the last ones are those of the half-space below the layers; its modulus may be infinite, a
+  !> rigid base. `bonded` (layers, default .true.): is the bottom of each layer bonded? Otherwise it slides without
+  !> friction, and never comes off. `e_star_other`: E/(1 - nu**2) of the other body, a half-space; infinite, the default,
+  !> if it is rigid. `other`: the other body if it has layers; it comes with no third one. Seven arguments are of one
+  !> body each or named by the caller.
+  !> Errors, which leave the description as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS,
+  !> FUGE_ERR_MEMORY.
+  subroutine set(self, thickness, young, poisson, info, bonded, e_star_other, other)
+    class(fuge_layered_body), intent(inout) :: self
+    real(dp), intent(in) :: thickness(:), young(:), poisson(:)
+    type(fuge_info), intent(out) :: info
+    logical, intent(in), optional :: bonded(:)
+    real(dp), intent(in), optional :: e_star_other
+    class(fuge_layered_body), intent(in), optional :: other
+    type(fuge_layered_body) :: new
+    real(dp) :: compliance(2)
+    logical :: joined(size(thickness))
+
+    joined = .true.
+    if (present(bonded)) then
+      if (size(bonded) /= size(thickness)) then
+        call report(info, FUGE_ERR_SIZE, 'bonded has '//text(size(bonded))//' numbers for '//text(size(thickness)) &
+                    //' layers')
+        return
+      end if
+      joined = bonded
+    end if
+    call check_layers(thickness, young, poisson, info)
+    if (info%failed()) return
+    call join_layers(thickness, young, poisson, joined, new%first)
+    compliance = [(1.0_dp - poisson(1)**2)/young(1), 0.0_dp]
+    if (present(other)) then
+      if (.not. other%is_set()) call report(info, FUGE_ERR_CALL_ORDER, 'other: no layers are set')
+      if (info%failed()) return
+      new%second = other%first
+      compliance(2) = other%share(1)/other%modulus
+    else if (present(e_star_other)) then
+      if (ieee_is_nan(e_star_other) .or. .not. e_star_other > 0.0_dp) then
+        call report(info, FUGE_ERR_MODULUS, 'e_star_other = '//text(e_star_other) &
+                    //' is not positive: it is E/(1 - nu^2) of the other body, infinite if it is rigid')
+        return
+      end if
+      compliance(2) = 1.0_dp/e_star_other
+    end if
+    new%modulus = 1.0_dp/sum(compliance)
+    new%share = compliance*new%modulus
+    call fit(new, info)
+    if (info%failed()) return
+    self%first = new%first
+    self%second = new%second
+    self%share = new%share
+    self%modulus = new%modulus
+    self%mixture = new%mixture
+    self%error = new%error
+  end subroutine set
+
+  !> Refuse what makes no layers.
+  subroutine check_layers(thickness, young, poisson, info)
+    real(dp), intent(in) :: thickness(:), young(:), poisson(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: k
+
+    if (size(young) /= size(thickness) + 1 .or. size(poisson) /= size(young)) then
+      call report(info, FUGE_ERR_SIZE, 'young has '//text(size(young))//' and poisson '//text(size(poisson)) &
+                  //' numbers for '//text(size(thickness))//' layers: both need one more, for the half-space below')
+      return
+    end if
+    do k = 1, size(young)
+      if (k <= size(thickness)) then
+        if (.not. ieee_is_finite(thickness(k))) then
+          call report(info, FUGE_ERR_NOT_FINITE, 'thickness '//text(k)//' = '//text(thickness(k)) &
+                      //' is not a finite number')
+        else if (.not. thickness(k) > 0.0_dp) then
+          call report(info, FUGE_ERR_WIDTH, 'thickness '//text(k)//' = '//text(thickness(k))//' is not positive')
+        end if
+      end if
+      if (.not. info%failed()) call check_material(k, k == size(young) .and. k > 1, young(k), poisson(k), info)
+      if (info%failed()) return
+    end do
+    if (size(thickness) < 1) return
+    if (maxval(thickness) > LARGEST_RATIO*minval(thickness)) then
+      call report(info, FUGE_ERR_WIDTH, 'thickness: the ratio of the thickest to the thinnest layer is at most ' &
+                  //text(LARGEST_RATIO))
+    else if (maxval(young, mask=ieee_is_finite(young)) > LARGEST_RATIO*minval(young)) then
+      call report(info, FUGE_ERR_MODULUS, 'young: the ratio of the stiffest to the softest layer is at most ' &
+                  //text(LARGEST_RATIO)//'; an infinite last one is a rigid base')
+    end if
+  end subroutine check_layers
+
+  !> Refuse moduli of material `k`, which may be `rigid`.
+  subroutine check_material(k, rigid, young, poisson, info)
+    integer, intent(in) :: k
+    logical, intent(in) :: rigid
+    real(dp), intent(in) :: young, poisson
+    type(fuge_info), intent(inout) :: info
+
+    if (ieee_is_nan(young) .or. ieee_is_nan(poisson)) then
+      call report(info, FUGE_ERR_NOT_FINITE, 'young or poisson '//text(k)//' is not a number')
+    else if (.not. young > 0.0_dp .or. .not. (rigid .or. ieee_is_finite(young))) then
+      call report(info, FUGE_ERR_MODULUS, 'young '//text(k)//' = '//text(young)//' is not a positive number' &
+                  //': the last one only, of a rigid base, may be infinite')
+    else if (poisson < 0.0_dp .or. poisson > 0.5_dp) then
+      call report(info, FUGE_ERR_MODULUS, 'poisson '//text(k)//' = '//text(poisson)//' is not in 0 .. 0.5')
+    end if
+  end subroutine check_material
+
+  !> The stack of these layers. What is bonded to a layer of the same material is one with it.
+  pure subroutine join_layers(thickness, young, poisson, bonded, stack)
+    real(dp), intent(in) :: thickness(:), young(:), poisson(:)
+    logical, intent(in) :: bonded(:)
+    type(layer_stack), intent(out) :: stack
+    real(dp) :: height(size(thickness))
+    integer :: count, k, layers, material(size(thickness) + 1)
+    logical :: joined(size(thickness))
+
+    layers = size(thickness)
+    count = 0
+    do k = 1, layers
+      if (continues(k)) then
+        height(count) = height(count) + thickness(k)
+      else
+        count = count + 1
+        height(count) = thickness(k)
+        material(count) = k
+      end if
+      joined(count) = bonded(k)
+    end do
+    if (count > 0) then
+      if (joined(count) .and. is_same(material(count), layers + 1)) count = count - 1
+    end if
+    material(count + 1) = layers + 1
+    allocate (stack%thickness(count), stack%bonded(count), stack%poisson(count + 1), stack%shear(count + 1))
+    stack%thickness = height(:count)
+    stack%bonded = joined(:count)
+    stack%poisson = poisson(material(:count + 1))
+    stack%shear = young(material(:count + 1))/young(1)*(1.0_dp + poisson(1))/(1.0_dp + stack%poisson)
+
+  contains
+
+    !> Is layer `k` one with the layer above it?
+    pure function continues(k)
+      integer, intent(in) :: k
+      logical :: continues
+
+      continues = k > 1
+      if (continues) continues = bonded(max(k - 1, 1)) .and. is_same(k - 1, k)
+    end function continues
+
+    !> Are two materials the same?
+    pure function is_same(i, j)
+      integer, intent(in) :: i, j
+      logical :: is_same
+
+      is_same = .not. (abs(young(i) - young(j)) > 0.0_dp .or. abs(poisson(i) - poisson(j)) > 0.0_dp)
+    end function is_same
+
+  end subroutine join_layers
+
+  !> Fit the mixture to both bodies; no mixture if neither has layers. Error: FUGE_ERR_MEMORY.
+  subroutine fit(layers, info)
+    type(fuge_layered_body), intent(inout) :: layers
+    type(fuge_info), intent(inout) :: info
+    type(contact_symbol) :: symbol
+    real(dp) :: limit, longest, shortest
+    integer :: k
+
+    symbol%stack(1) = layers%first
+    symbol%stack(2) = layers%second
+    symbol%share = layers%share
+    shortest = huge(shortest)
+    longest = 0.0_dp
+    limit = 0.0_dp
+    do k = 1, 2
+      limit = limit + symbol%share(k)*symbol%stack(k)%factor_of_longest()
+      if (.not. symbol%stack(k)%has_layers()) cycle
+      shortest = min(shortest, symbol%stack(k)%thickness(1))
+      longest = max(longest, long_length(symbol%stack(k)))
+    end do
+    if (longest > 0.0_dp) call fit_mixture(symbol, shortest, longest, limit, layers%mixture, layers%error, info)
+  end subroutine fit
+
+  !> The length from which on waves are long.
+  pure function long_length(stack) result(length)
+    type(layer_stack), intent(in) :: stack
+    real(dp) :: length
+    real(dp) :: contrast
+
+    contrast = maxval(stack%shear, mask=ieee_is_finite(stack%shear))/minval(stack%shear)
+    if (stack%is_rigid()) then
+      length = LONG_ON_RIGID*contrast**POWER_ON_RIGID
+    else
+      length = LONG*contrast
+    end if
+    length = length*sum(stack%thickness)
+  end function long_length
+
+  !> Has it been set?
+  elemental function is_set(self)
+    class(fuge_layered_body), intent(in) :: self
+    logical :: is_set
+
+    is_set = self%modulus > 0.0_dp
+  end function is_set
+
+  !> Of the surface, for the e_star of operators, force per length squared: 1/e_star is the sum of (1 - nu**2)/E of the
+  !> two top layers. 0 before `set`.
+  elemental function e_star(self)
+    class(fuge_layered_body), intent(in) :: self
+    real(dp) :: e_star
+
+    e_star = self%modulus
+  end function e_star
+
+  !> What makes the surface another one than that of a half-space, for the `body` of operators.
+  function surface(self)
+    class(fuge_layered_body), intent(in) :: self
+    type(wave_mixture) :: surface
+
+    surface = self%mixture
+  end function surface
+
+  !> T of a wave `q` > 0, 1/length: pressure displaces the surface by 2 T/(e_star q) times itself.
+  elemental function factor_of_wave(self, q) result(factor)
+    class(fuge_layered_body), intent(in) :: self
+    real(dp), intent(in) :: q
+    real(dp) :: factor
+
+    factor = self%share(1)*self%first%wave_factor(q)
+    if (self%share(2) > 0.0_dp) factor = factor + self%share(2)*self%second%wave_factor(q)
+  end function factor_of_wave
+
+  pure function wave_factor(self, q) result(factor)
+    class(contact_symbol), intent(in) :: self
+    real(dp), intent(in) :: q
+    real(dp) :: factor
+    integer :: k
+
+    factor = 0.0_dp
+    do k = 1, 2
+      if (self%share(k) > 0.0_dp) factor = factor + self%share(k)*self%stack(k)%wave_factor(q)
+    end do
+  end function wave_factor
+
+end module fuge_layered_body_type
