@@ -1,6 +1,7 @@
 !> The elastic half-space on a uniform grid of rectangles, by FFT: A of `fuge_halfspace_matrix`, or of a periodic
 !> surface, in O(n log n) operations and O(n) memory.
 module fuge_halfspace_fft
+  use fuge_constants, only: PI
   use fuge_grid_plan, only: grid_plan
   use fuge_grid_operator_type, only: grid_operator
   use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, count_coarser, halfspace_grid, is_large, &
@@ -49,6 +50,7 @@ module fuge_halfspace_fft
     procedure :: common_magnitude
     procedure :: has_preconditioner_on_bed
     procedure :: precondition_on_bed
+    procedure :: wave_slope
     procedure :: grid
     procedure :: coarsen
     procedure :: free_rim
@@ -273,6 +275,20 @@ contains
 
     preconditioned = self%has_preconditioner()
   end function has_preconditioner_on_bed
+
+  !> That of waves of eight cells.
+  function wave_slope(self, levels) result(slope)
+    class(fuge_halfspace_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    real(dp) :: slope
+    real(dp), parameter :: RATIO = 1.1_dp
+    real(dp) :: q
+
+    slope = 1.0_dp
+    if (.not. self%surface%body%is_set()) return
+    q = 0.25_dp*PI/(sqrt(product(self%surface%spacing))*2.0_dp**levels)
+    slope = 1.0_dp - log(self%surface%body%wave_factor(q)/self%surface%body%wave_factor(RATIO*q))/log(1.0_dp/RATIO)
+  end function wave_slope
 
   !> The inverse on a periodic surface on a bed of the `compliance`, length per force; otherwise as `precondition`.
   subroutine precondition_on_bed(self, compliance, displacement, force, status)

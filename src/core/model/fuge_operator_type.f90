@@ -32,6 +32,8 @@ module fuge_operator_type
     procedure :: precondition => copy_displacement
     !> Are displacements of open points of an area, continued from those of a contact set, good for the preconditioner?
     procedure :: extends_sets => extends_on_areas
+    !> How fast displacements fall with the length of waves, on an area.
+    procedure :: wave_slope => slope_of_half_space
     !> Is there a preconditioner of A on a bed?
     procedure :: has_preconditioner_on_bed => without_bed
     !> f = M u, with M symmetric, positive definite and close to the inverse of A + compliance.
@@ -110,6 +112,17 @@ contains
 
     extends = all(self%grid() > 1)
   end function extends_on_areas
+
+  !> The slope s of waves of some cells of the grid that is 2**`levels` times coarser: pressure displaces the surface in
+  !> proportion to q**-s. 1 by default, as on a half-space.
+  function slope_of_half_space(self, levels) result(slope)
+    class(fuge_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    real(dp) :: slope
+
+    slope = 1.0_dp
+    if (levels < 0 .or. self%points() < 0) slope = 0.0_dp
+  end function slope_of_half_space
 
   !> False by default: compliances of the points are then not part of the preconditioner.
   function without_bed(self) result(preconditioned)

@@ -6,7 +6,7 @@ module fuge_extended_preconditioner
   use fuge_operator_type, only: fuge_operator
   use fuge_point_chunks, only: chunked_pass
   use fuge_point_space, only: point_space
-  use fuge_set_extension, only: set_extension
+  use fuge_set_extension, only: set_extension, wave_slopes
   use fuge_shared_rows, only: rows_of, shared_rows
   use fuge_status, only: fuge_info, require_memory
   implicit none
@@ -59,7 +59,8 @@ contains
     if (.not. allocated(self%residual)) allocate (self%residual(size(contact)), self%values(size(contact)), stat=stat)
     call require_memory(stat, 'the preconditioner of', size(contact), 'points', info)
     call rows_of(operator, 0, rows, info)
-    if (.not. info%failed()) call self%extension%set(rows, operator%grid(), contact, info)
+    if (.not. info%failed()) call self%extension%set(rows, operator%grid(), contact, info, &
+                                                       wave_slopes(operator))
   end subroutine set
 
   !> Forces on the contact set whose displacements are close to `residual`, (n), length, zero off the set; `force` (n),

@@ -18,16 +18,24 @@ module fuge_set_extension
     spread_row, sum_pairs, NEAR, NEXT
   use fuge_grid_transfer, only: coarser_cells
   use fuge_kinds, only: dp, sp
+  use fuge_operator_type, only: fuge_operator
   use fuge_shared_rows, only: shared_rows
   use fuge_status, only: fuge_info, require_memory
   use fuge_threads, only: run_in_parts, share, threads_here, work_in_parts
   implicit none
   private
 
-  !> From one grid to the next the cover grows by this factor. With 2 a lone cell would reach as far as its force, whose
-  !> displacement falls off like 1/r, with 1 as far as its share of the area. In between the condition is least: on
-  !> rough surfaces 1.2, for any grid and load, but 1.8 with 1 and 2.4 with 2.
+  public :: wave_slopes
+
+  !> Slopes of more grids are those of the last one.
+  integer, parameter :: LEVELS = 16
+  !> From one grid to the next the cover grows by this factor on a half-space. With 2 a lone cell would reach as far as its
+  !> force, whose displacement falls off like 1/r, with 1 as far as its share of the area. In between the condition is
+  !> least: on rough surfaces 1.2, for any grid and load, but 1.8 with 1 and 2.4 with 2.
   real(sp), parameter :: GROWTH = 1.2_sp
+  !> Where displacements by waves fall like q**-s, those by a lone force fall like r**(s - 2): the growth is 2**(s - 1)
+  !> times as large, at most this. A stiff film bends as a plate, s = 4: what touches it moves it far around.
+  real(sp), parameter :: MOST_GROWTH = 4.0_sp
   !> The coarsest grid has no more cells than this in each direction.
   integer, parameter :: COARSEST = 4
   !> Fewer cells are done by one thread: waking others would take as long.
@@ -66,6 +74,8 @@ module fuge_set_extension
     integer :: rows = 0
     !> The rows of `fine` that are here: `own` after this many.
     integer :: before = 0, own = 0
+    !> Of the cover, from `fine` to `coarse`.
+    real(sp) :: cover_growth = GROWTH
     procedure(row_operation), pointer, nopass :: operation => null()
   contains
     procedure :: do_part
@@ -84,13 +94,15 @@ module fuge_set_extension
 contains
 
   !> Prepare for the set `contact` of a grid of `cells` in each direction, of which the rows may be shared: `contact`
-  !> (n), of the points here. Error: FUGE_ERR_MEMORY.
-  subroutine set(self, rows, cells, contact, info)
+  !> (n), of the points here. `slope` (0:): that of the waves of each grid, from the finest on, as an operator's
+  !> `wave_slope`; where there are none, 1 as on a half-space. Error: FUGE_ERR_MEMORY.
+  subroutine set(self, rows, cells, contact, info, slope)
     class(set_extension), intent(inout), target :: self
     type(shared_rows), intent(in) :: rows
     integer, intent(in) :: cells(2)
     logical, intent(in), contiguous, target :: contact(:)
     type(fuge_info), intent(inout) :: info
+    real(dp), intent(in), optional :: slope(0:)
     type(row_pass) :: pass
     integer :: l
 
@@ -104,6 +116,7 @@ contains
       if (l == size(self%levels)) exit
       if (.not. rows%anywhere(any(self%levels(l)%cover < 1.0_sp))) exit
       call point_to_level(self, l, pass)
+      if (present(slope)) pass%cover_growth = growth_of(slope(min(l, size(slope)) - 1))
       call pass%go(sum_cover, pass%coarse%cells(2))
       if (l == 1) call add_of_ranks(self, pass%coarse%inverse, info)
       if (info%failed()) return
@@ -115,6 +128,23 @@ contains
       coarsest%inverse = coarsest%cover*coarsest%inverse
     end associate
   end subroutine set
+
+  !> The growth of the cover where displacements by waves fall like q**-`slope`.
+  elemental function growth_of(slope) result(factor)
+    real(dp), intent(in) :: slope
+    real(sp) :: factor
+
+    factor = min(GROWTH*2.0_sp**real(slope - 1.0_dp, sp), MOST_GROWTH)
+  end function growth_of
+
+  !> The slopes of the waves of an operator's grid and its coarser ones, (0:).
+  function wave_slopes(operator) result(slope)
+    class(fuge_operator), intent(in) :: operator
+    real(dp) :: slope(0:LEVELS)
+    integer :: l
+
+    slope = [(operator%wave_slope(l), l=0, LEVELS)]
+  end function wave_slopes
 
   !> Create the grids, unless they are there; `own` rows of the finest are here.
   subroutine create_levels(self, rows, cells, own, info)
@@ -315,7 +345,7 @@ contains
 
     associate (n => pass%fine%cells, inverse => pass%coarse%inverse, cover => pass%coarse%cover)
       do i = 1, size(inverse, 1)
-        cover(i, j) = min(GROWTH*inverse(i, j)/real(fine_cells(n(1), i)*fine_cells(n(2), j), sp), 1.0_sp)
+        cover(i, j) = min(pass%cover_growth*inverse(i, j)/real(fine_cells(n(1), i)*fine_cells(n(2), j), sp), 1.0_sp)
         if (inverse(i, j) > 0.0_sp) inverse(i, j) = 1.0_sp/inverse(i, j)
       end do
     end associate

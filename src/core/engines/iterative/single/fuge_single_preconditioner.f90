@@ -5,7 +5,7 @@ module fuge_single_preconditioner
   use fuge_kinds, only: dp, sp
   use fuge_operator_products, only: precondition_single
   use fuge_operator_type, only: fuge_operator
-  use fuge_set_extension, only: set_extension
+  use fuge_set_extension, only: set_extension, wave_slopes
   use fuge_single_passes, only: center_residuals, mark_contact, point_pass, sum_energy, sum_uniform, sum_with_uniform
   use fuge_single_state, only: single_state
   use fuge_status, only: fuge_info
@@ -52,7 +52,7 @@ contains
     type(fuge_info), intent(inout) :: info
 
     if (self%current) return
-    call self%extension%set(scene%rows, operator%grid(), iterate%contact, info)
+    call self%extension%set(scene%rows, operator%grid(), iterate%contact, info, wave_slopes(operator))
     if (info%failed()) return
     if (.not. iterate%prescribed) then
       call set_uniform(self, operator, scene, state, iterate, info)

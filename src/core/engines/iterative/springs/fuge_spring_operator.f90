@@ -64,6 +64,7 @@ module fuge_spring_operator
     procedure :: least_pair_compliance
     procedure :: has_preconditioner
     procedure :: extends_sets
+    procedure :: wave_slope
     procedure :: precondition
     procedure :: grid
     procedure :: free_rim
@@ -277,6 +278,14 @@ contains
     extends = .not. allocated(self%compliance)
     if (extends) extends = self%attached%extends_sets()
   end function extends_sets
+
+  function wave_slope(self, levels) result(slope)
+    class(spring_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    real(dp) :: slope
+
+    slope = self%attached%wave_slope(levels)
+  end function wave_slope
 
   !> The sum over the beds of the preconditioner of A on each of them, restricted to its points.
   subroutine precondition(self, displacement, force, status)
