@@ -74,6 +74,7 @@
 
 #include "fuge_core.h"    /* problems, operators, solvers, results; the half-plane */
 #include "fuge_area.h"    /* areas of contact: the half-space, rings, Hertz */
+#include "fuge_layers.h"  /* coated and layered bodies */
 #include "fuge_punch.h"   /* smooth punches and round ones, without a grid */
 #include "fuge_stress.h"  /* stresses and displacements in the bodies */
 #include "fuge_fe.h"      /* bodies of finite elements: condensation, pairs of surfaces */

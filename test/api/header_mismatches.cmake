@@ -47,6 +47,6 @@ expect_mismatch(fuge.h "#endif" "int fuge_reset(fuge_solver *s);\n#endif" "fuge.
 # Headers include what their components may use, fuge.h all of them.
 expect_mismatch(fuge_punch.h "#include \"fuge_core.h\"" "#include \"fuge_fe.h\""
   "fuge_punch.h includes fuge_fe.h: punch may not use it")
-expect_mismatch(fuge.h "#include \"fuge_punch.h\"" "" "fuge.h includes fuge_area.h;fuge_core.h;fuge_fe.h;fuge_files.h;")
+expect_mismatch(fuge.h "#include \"fuge_punch.h\"" "" "fuge.h includes fuge_area.h;fuge_core.h;fuge_fe.h;fuge_files.h;fuge_layers.h;")
 file(WRITE "${SCRATCH}/include/fuge_walls.h" "\n")
 expect_failure("no component has the header fuge_walls.h")

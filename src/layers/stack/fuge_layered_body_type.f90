@@ -34,6 +34,7 @@ module fuge_layered_body_type
     procedure :: e_star
     procedure :: surface
     procedure :: factor_of_wave
+    procedure :: find_compliances
     procedure :: is_set
   end type fuge_layered_body
 
@@ -280,6 +281,35 @@ contains
     factor = self%share(1)*self%first%wave_factor(q)
     if (self%share(2) > 0.0_dp) factor = factor + self%share(2)*self%second%wave_factor(q)
   end function factor_of_wave
+
+  !> `compliance`: 2 T/(e_star q), displacement per pressure, length over force per length squared, of the waves `q` > 0,
+  !> 1/length. Errors, `compliance` untouched: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH
+  !> for one that is not positive.
+  subroutine find_compliances(self, q, compliance, info)
+    class(fuge_layered_body), intent(in) :: self
+    real(dp), intent(in) :: q(:)
+    real(dp), intent(inout) :: compliance(:)
+    type(fuge_info), intent(out) :: info
+    integer :: k
+
+    if (.not. self%is_set()) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'no layers are set')
+    else if (size(q) /= size(compliance)) then
+      call report(info, FUGE_ERR_SIZE, 'q has '//text(size(q))//' numbers and compliance '//text(size(compliance)))
+    end if
+    do k = 1, size(q)
+      if (info%failed()) return
+      if (.not. ieee_is_finite(q(k))) then
+        call report(info, FUGE_ERR_NOT_FINITE, 'q '//text(k)//' = '//text(q(k))//' is not a finite number')
+      else if (.not. q(k) > 0.0_dp) then
+        call report(info, FUGE_ERR_WIDTH, 'q '//text(k)//' = '//text(q(k))//' is not positive')
+      end if
+    end do
+    if (info%failed()) return
+    do k = 1, size(q)
+      compliance(k) = 2.0_dp*self%factor_of_wave(q(k))/(self%modulus*q(k))
+    end do
+  end subroutine find_compliances
 
   pure function wave_factor(self, q) result(factor)
     class(contact_symbol), intent(in) :: self

@@ -1,0 +1,106 @@
+!> C bindings, section "layers".
+module fuge_c_layers
+  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array
+  use fuge_c_operator, only: new_operator
+  use fuge_c_types, only: report_to_c, require_count, require_pointer
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
+  use fuge_halfspace_fft, only: fuge_halfspace_operator
+  use fuge_layered_body_type, only: fuge_layered_body
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info
+  implicit none
+  private
+
+contains
+
+  !> Thirteen arguments, as in the header: the cells, the layers, the other body, the boundary, the message.
+  function c_operator_layered_halfplane(n, spacing, layers, thickness, young, poisson, bonded, e_star_other, element, &
+                                        boundary, destination, message, length) &
+    bind(c, name='fuge_operator_layered_halfplane') result(status)
+    integer(c_int), intent(in), value :: n, layers, bonded, element, boundary
+    real(c_double), intent(in), value :: spacing, e_star_other
+    type(c_ptr), intent(in), value :: thickness, young, poisson, destination, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_halfplane_operator), allocatable :: surface
+    class(fuge_operator), allocatable :: operator
+    type(fuge_layered_body) :: body
+    type(fuge_info) :: info
+
+    allocate (surface)
+    call require_pointer(destination, 'op', info)
+    call find_layers(layers, thickness, young, poisson, bonded, e_star_other, body, info)
+    if (.not. info%failed()) call surface%set(int(n), spacing, body%e_star(), info, int(element), int(boundary), &
+                                              body=body%surface())
+    call move_alloc(surface, operator)
+    call new_operator(operator, destination, info)
+    status = report_to_c(info, message, length)
+  end function c_operator_layered_halfplane
+
+  !> Fifteen arguments, as in the header: the cells, the layers, the other body, the boundary, the message.
+  function c_operator_layered_halfspace(nx, ny, spacing_x, spacing_y, layers, thickness, young, poisson, bonded, &
+                                        e_star_other, element, boundary, destination, message, length) &
+    bind(c, name='fuge_operator_layered_halfspace') result(status)
+    integer(c_int), intent(in), value :: nx, ny, layers, bonded, element, boundary
+    real(c_double), intent(in), value :: spacing_x, spacing_y, e_star_other
+    type(c_ptr), intent(in), value :: thickness, young, poisson, destination, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_halfspace_operator), allocatable :: surface
+    class(fuge_operator), allocatable :: operator
+    type(fuge_layered_body) :: body
+    type(fuge_info) :: info
+
+    allocate (surface)
+    call require_pointer(destination, 'op', info)
+    call find_layers(layers, thickness, young, poisson, bonded, e_star_other, body, info)
+    if (.not. info%failed()) call surface%set(int(nx), int(ny), spacing_x, spacing_y, body%e_star(), info, &
+                                              int(element), int(boundary), body=body%surface())
+    call move_alloc(surface, operator)
+    call new_operator(operator, destination, info)
+    status = report_to_c(info, message, length)
+  end function c_operator_layered_halfspace
+
+  !> Eleven arguments, as in the header: the layers, the other body, the waves, the message.
+  function c_layered_waves(layers, thickness, young, poisson, bonded, e_star_other, waves, q, compliance, message, &
+                           length) bind(c, name='fuge_layered_waves') result(status)
+    integer(c_int), intent(in), value :: layers, bonded, waves
+    real(c_double), intent(in), value :: e_star_other
+    type(c_ptr), intent(in), value :: thickness, young, poisson, q, compliance, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: wave_numbers(:), results(:)
+    type(fuge_layered_body) :: body
+    type(fuge_info) :: info
+
+    call require_count(waves, 0, 'waves', 'waves', info)
+    call find_array(waves, q, 'q', wave_numbers, info)
+    call find_array(waves, compliance, 'compliance', results, info)
+    call find_layers(layers, thickness, young, poisson, bonded, e_star_other, body, info)
+    if (.not. info%failed()) call body%find_compliances(wave_numbers, results, info)
+    status = report_to_c(info, message, length)
+  end function c_layered_waves
+
+  !> The layers behind these arguments. Eight arguments, those of the header.
+  subroutine find_layers(layers, thickness, young, poisson, bonded, e_star_other, body, info)
+    integer(c_int), intent(in) :: layers, bonded
+    type(c_ptr), intent(in) :: thickness, young, poisson
+    real(c_double), intent(in) :: e_star_other
+    type(fuge_layered_body), intent(inout) :: body
+    type(fuge_info), intent(inout) :: info
+    real(c_double), pointer :: moduli(:), ratios(:), thicknesses(:)
+    real(c_double), target :: none(0)
+
+    call require_count(layers, 0, 'layers', 'layers', info)
+    thicknesses => none
+    if (layers > 0) call find_array(layers, thickness, 'thickness', thicknesses, info)
+    if (.not. info%failed()) then
+      call find_array(layers + 1, young, 'young', moduli, info)
+      call find_array(layers + 1, poisson, 'poisson', ratios, info)
+    end if
+    if (.not. info%failed()) call body%set(thicknesses, moduli, ratios, info, spread(bonded /= 0, 1, int(layers)), &
+                                           e_star_other)
+  end subroutine find_layers
+
+end module fuge_c_layers
