@@ -6,8 +6,8 @@
 !>     u(top) = F u(bottom) + G s(top),   s(bottom) = F^T s(top) - H u(bottom)
 !>
 !> G is the compliance of the layer on a rigid base, H the stiffness against a displacement of its bottom under a free
-!> top. Both are positive definite, so that layers are joined by sums of such matrices (`rest_on`): whatever their
-!> thickness and however much softer one is than the other, nothing cancels. A thick layer has F = 0.
+!> top. Both are positive definite, so that layers are joined by sums of such matrices (`joined`, `rest_on`): whatever
+!> their thickness and however much softer one is than the other, nothing cancels. A thick layer has F = 0.
 !>
 !> The equations of equilibrium make (u, s) the solution of y' = A y with (A^2 - 1)^2 = 0, so that exp(-A q h), whose
 !> blocks give F, G and H, is a polynomial of the third degree in A; doc/theory_layers.md has it.
@@ -16,7 +16,7 @@ module fuge_layer_matrices
   implicit none
   private
 
-  public :: half_space_compliance, layer_of, rest_on, slide_on
+  public :: half_space_compliance, joined, layer_of, rest_on, slide_on
 
   !> Below this thickness in wavelengths over 2 pi, differences of nearly equal functions are summed as series.
   real(dp), parameter :: THIN = 0.5_dp
@@ -105,46 +105,75 @@ contains
     end do
   end function cosine_series
 
+  !> Two layers that are bonded as one.
+  pure function joined(upper, lower) result(both)
+    type(layer_matrices), intent(in) :: upper, lower
+    type(layer_matrices) :: both
+    real(dp) :: inverse(2, 2)
+
+    ! (1 + G H)^-1, of the compliance of the lower layer and the stiffness of the upper one.
+    associate (g => lower%compliance, h => upper%stiffness)
+      inverse(1, 1) = 1.0_dp + g(2)*h(2) + g(3)*h(3)
+      inverse(2, 2) = 1.0_dp + g(1)*h(1) + g(2)*h(2)
+      inverse(1, 2) = -(g(1)*h(2) + g(2)*h(3))
+      inverse(2, 1) = -(g(2)*h(1) + g(3)*h(2))
+      inverse = inverse/joint_determinant(g, h)
+    end associate
+    both%transmission = matmul(upper%transmission, matmul(inverse, lower%transmission))
+    both%compliance = upper%compliance + transmitted(upper%transmission, in_series(lower%compliance, upper%stiffness))
+    both%stiffness = lower%stiffness &
+                     + transmitted(transpose(lower%transmission), in_series(upper%stiffness, lower%compliance))
+  end function joined
+
   !> The compliance at the top of a layer bonded to a body of the compliance `below`, all of the layer's shear modulus:
   !> G + F (1 + C H)^-1 C F^T.
   pure function rest_on(layer, below) result(compliance)
     type(layer_matrices), intent(in) :: layer
     real(dp), intent(in) :: below(3)
     real(dp) :: compliance(3)
-    real(dp) :: det, joined(3)
 
-    associate (c => below, h => layer%stiffness)
-      det = 1.0_dp + (c(1)*h(1) + 2.0_dp*c(2)*h(2) + c(3)*h(3)) &
-            + (c(1)*c(3) - c(2)**2)*(h(1)*h(3) - h(2)**2)
-      joined = (c + (c(1)*c(3) - c(2)**2)*[h(3), -h(2), h(1)])/det
-    end associate
-    compliance = layer%compliance + transmitted(layer, joined)
+    compliance = layer%compliance + transmitted(layer%transmission, in_series(below, layer%stiffness))
   end function rest_on
+
+  !> (1 + A B)^-1 A of two symmetric matrices, of which neither has to have an inverse: (A^-1 + B)^-1.
+  pure function in_series(a, b) result(series)
+    real(dp), intent(in) :: a(3), b(3)
+    real(dp) :: series(3)
+
+    series = (a + (a(1)*a(3) - a(2)**2)*[b(3), -b(2), b(1)])/joint_determinant(a, b)
+  end function in_series
+
+  !> The determinant of 1 + A B.
+  pure function joint_determinant(a, b) result(determinant)
+    real(dp), intent(in) :: a(3), b(3)
+    real(dp) :: determinant
+
+    determinant = 1.0_dp + (a(1)*b(1) + 2.0_dp*a(2)*b(2) + a(3)*b(3)) + (a(1)*a(3) - a(2)**2)*(b(1)*b(3) - b(2)**2)
+  end function joint_determinant
 
   !> As `rest_on`, where the layer slides on the body without friction; `below` is its compliance under pressure, zz.
   pure function slide_on(layer, below) result(compliance)
     type(layer_matrices), intent(in) :: layer
     real(dp), intent(in) :: below
     real(dp) :: compliance(3)
-    real(dp) :: det, joined(3)
+    real(dp) :: det, free(3)
 
     ! (H + diag(0, 1/below))^-1.
     associate (h => layer%stiffness)
       det = h(1) + below*(h(1)*h(3) - h(2)**2)
-      joined = [1.0_dp + below*h(3), -below*h(2), below*h(1)]/det
+      free = [1.0_dp + below*h(3), -below*h(2), below*h(1)]/det
     end associate
-    compliance = layer%compliance + transmitted(layer, joined)
+    compliance = layer%compliance + transmitted(layer%transmission, free)
   end function slide_on
 
   !> F M F^T, of a symmetric M.
-  pure function transmitted(layer, m) result(product)
-    type(layer_matrices), intent(in) :: layer
-    real(dp), intent(in) :: m(3)
+  pure function transmitted(f, m) result(product)
+    real(dp), intent(in) :: f(2, 2), m(3)
     real(dp) :: product(3)
     real(dp) :: x(2), z(2)
 
-    x = layer%transmission(1, :)
-    z = layer%transmission(2, :)
+    x = f(1, :)
+    z = f(2, :)
     product = [quadratic(x, m, x), quadratic(x, m, z), quadratic(z, m, z)]
   end function transmitted
 

@@ -1,7 +1,7 @@
 !> The waves of a body of elastic layers: how much more or less than a half-space of its top layer it yields.
 module fuge_layer_stack
   use fuge_kinds, only: dp
-  use fuge_layer_matrices, only: half_space_compliance, layer_of, rest_on, slide_on
+  use fuge_layer_matrices, only: half_space_compliance, joined, layer_matrices, layer_of, rest_on, slide_on
   use fuge_mixture_fit, only: wave_symbol
   implicit none
   private
@@ -76,23 +76,41 @@ contains
     integer, intent(in) :: above
     real(dp), intent(in) :: q
     real(dp) :: compliance(3)
+    type(layer_matrices) :: bonded
     integer :: k, layers
 
     layers = size(self%thickness)
     compliance = 0.0_dp
     if (.not. self%is_rigid()) compliance = half_space_compliance(self%poisson(layers + 1))/self%shear(layers + 1)
-    do k = layers, above + 1, -1
-      ! In units of this layer, and back.
-      compliance = self%shear(k)*compliance
-      associate (layer => layer_of(q*self%thickness(k), self%poisson(k)))
-        if (self%bonded(k)) then
-          compliance = rest_on(layer, compliance)
-        else
-          compliance = slide_on(layer, compliance(3))
-        end if
-      end associate
-      compliance = compliance/self%shear(k)
+    ! Layers that are bonded to each other are one before they lie on what they may slide on.
+    k = layers
+    do while (k > above)
+      layers = k
+      bonded = layer_number(self, k, q)
+      do while (k > above + 1)
+        if (.not. self%bonded(k - 1)) exit
+        k = k - 1
+        bonded = joined(layer_number(self, k, q), bonded)
+      end do
+      if (self%bonded(layers)) then
+        compliance = rest_on(bonded, compliance)
+      else
+        compliance = slide_on(bonded, compliance(3))
+      end if
+      k = k - 1
     end do
   end function compliance_below
+
+  !> Layer `k` for waves `q`, of the shear modulus of the top layer.
+  pure function layer_number(stack, k, q) result(layer)
+    class(layer_stack), intent(in) :: stack
+    integer, intent(in) :: k
+    real(dp), intent(in) :: q
+    type(layer_matrices) :: layer
+
+    layer = layer_of(q*stack%thickness(k), stack%poisson(k))
+    layer%compliance = layer%compliance/stack%shear(k)
+    layer%stiffness = layer%stiffness*stack%shear(k)
+  end function layer_number
 
 end module fuge_layer_stack

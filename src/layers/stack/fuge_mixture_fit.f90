@@ -76,7 +76,7 @@ contains
     call require_memory(stat, 'the waves of layers, with', count, 'weights', info)
     if (info%failed()) return
     mixture%weight = mixture%weight + right(:count)
-    mixture%tail = right(count + 1)
+    if (limit > 0.0_dp) mixture%tail = right(count + 1)
     error = largest_error(body, mixture, from*sqrt(ratio), ratio, rows - 1)
   end subroutine fit_mixture
 
@@ -96,11 +96,11 @@ contains
       do k = 1, count
         matrix(row, k) = term(q*mixture%unit*exp(STEP*real(k - 1, dp)))
       end do
-      ! Longer t, whose weights fall off like 1/t**2.
+      ! Longer t, whose weights fall off like 1/t**2, on a rigid base faster.
       matrix(row, count + 1) = 0.0_dp
       k = 1
       x = q*mixture%unit*exp(STEP*real(count, dp))
-      do while (x < NEGLIGIBLE)
+      do while (x < NEGLIGIBLE .and. mixture%limit > 0.0_dp)
         matrix(row, count + 1) = matrix(row, count + 1) + term(x)*exp(-2.0_dp*STEP*real(k, dp))
         k = k + 1
         x = x*exp(STEP)
