@@ -48,6 +48,27 @@ int fuge_operator_layered_halfspace(int nx, int ny, double spacing_x, double spa
                                     int element, int boundary, fuge_operator **op,
                                     char *message, size_t len);
 
+/* Influence matrices: the arguments after those of the layers are those of
+ * fuge_halfplane_matrix, fuge_halfspace_matrix and fuge_ring_matrix but e_star, and on rings
+ * the element, which is FUGE_MEAN.  alpha is untouched after an error. */
+int fuge_layered_halfplane_matrix(int layers, const double *thickness, const double *young,
+                                  const double *poisson, int bonded, double e_star_other,
+                                  int n, const double *x, const double *width, int element,
+                                  int symmetric, double *alpha, int lda, char *message,
+                                  size_t len);
+
+int fuge_layered_halfspace_matrix(int layers, const double *thickness, const double *young,
+                                  const double *poisson, int bonded, double e_star_other,
+                                  int n, const double *x, const double *y,
+                                  const double *width_x, const double *width_y, int element,
+                                  int symmetric_x, int symmetric_y, double *alpha, int lda,
+                                  char *message, size_t len);
+
+int fuge_layered_ring_matrix(int layers, const double *thickness, const double *young,
+                             const double *poisson, int bonded, double e_star_other, int n,
+                             const double *radius, double *alpha, int lda, char *message,
+                             size_t len);
+
 /* The displacement of the surface by waves of pressure.
  *   waves        in   their number
  *   q            in   waves: 2 pi over the length of each wave; > 0; 1/length

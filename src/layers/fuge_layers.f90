@@ -1,6 +1,8 @@
 !> The public interface of the component layers: coated and layered bodies.
 module fuge_layers
   use fuge_layered_body_type, only: fuge_layered_body
+  use fuge_layered_matrices, only: fuge_layered_halfplane_matrix, fuge_layered_halfspace_matrix, &
+    fuge_layered_ring_matrix
   implicit none
   public
 

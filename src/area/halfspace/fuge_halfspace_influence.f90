@@ -17,7 +17,7 @@ module fuge_halfspace_influence
   implicit none
   private
 
-  public :: fuge_halfspace_matrix
+  public :: copy_from_table, find_grid, fuge_halfspace_matrix
 
   !> Rectangles, and the data on which their coefficients depend.
   type :: rectangles
@@ -95,12 +95,8 @@ contains
     done = .false.
     allocate (column(n), row(n), stat=stat)
     if (stat /= 0) return
-    call find_places(cells%x, cells%width_x, cells%images(1), column, mirror(1))
-    call find_places(cells%y, cells%width_y, cells%images(2), row, mirror(2))
-    if (any(mirror < 0)) return
-    extent = [maxval(column), maxval(row)]
-    extent = merge(2*extent + mirror, extent, cells%images == 2)
-    if (real(extent(1) + 1, dp)*real(extent(2) + 1, dp) > 8.0_dp*n) return
+    call find_grid(cells%x, cells%y, cells%width_x, cells%width_y, cells%images, column, row, mirror, extent)
+    if (any(extent < 0)) return
     allocate (table(0:extent(1), 0:extent(2)), stat=stat)
     if (stat /= 0) return
     call fill_halfspace_table([cells%width_x(1), cells%width_y(1)], e_star, cells%element, table, stat)
@@ -108,6 +104,25 @@ contains
     call copy_from_table(table, column, row, cells%images, mirror, alpha)
     done = .true.
   end subroutine fill_from_grid
+
+  !> The `column` and `row` 0, 1, .. of each rectangle, if they are cells of one grid, up to rounding.
+  !>
+  !> `x` to `width_y` (n) as in fuge_halfspace_matrix; `images` (2), one or two in each direction; `mirror` (2) as in
+  !> `find_places`. `extent` (2): the largest distances in columns and rows, negative if the rectangles are no such cells,
+  !> or if there are many more distances than rectangles. Nine arguments: the rectangles, and their places.
+  pure subroutine find_grid(x, y, width_x, width_y, images, column, row, mirror, extent)
+    real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:)
+    integer, intent(in) :: images(2)
+    integer, intent(out) :: column(:), row(:), mirror(2), extent(2)
+
+    extent = -1
+    call find_places(x, width_x, images(1), column, mirror(1))
+    call find_places(y, width_y, images(2), row, mirror(2))
+    if (any(mirror < 0)) return
+    extent = [maxval(column), maxval(row)]
+    extent = merge(2*extent + mirror, extent, images == 2)
+    if (real(extent(1) + 1, dp)*real(extent(2) + 1, dp) > 8.0_dp*size(x)) extent = -1
+  end subroutine find_grid
 
   !> The place 0, 1, .. of each cell in its line, if they are cells of one width side by side, up to rounding.
   !>
@@ -137,10 +152,12 @@ contains
   end subroutine find_places
 
   !> alpha of cells in the places `column` and `row`: the mean over the `images` (2); `mirror` (2) as in `find_places`.
-  pure subroutine copy_from_table(table, column, row, images, mirror, alpha)
+  !> With `added` this is added to what alpha has.
+  pure subroutine copy_from_table(table, column, row, images, mirror, alpha, added)
     real(dp), intent(in) :: table(0:, 0:)
     integer, intent(in) :: column(:), row(:), images(2), mirror(2)
     real(dp), intent(inout) :: alpha(:, :)
+    logical, intent(in), optional :: added
     real(dp) :: total
     integer :: i, j, along_x(2), along_y(2), u, v
 
@@ -154,8 +171,10 @@ contains
             total = total + table(along_x(u), along_y(v))
           end do
         end do
-        alpha(i, j) = total/real(product(images), dp)
-        alpha(j, i) = alpha(i, j)
+        total = total/real(product(images), dp)
+        if (present(added)) total = alpha(i, j) + total
+        alpha(i, j) = total
+        alpha(j, i) = total
       end do
     end do
   end subroutine copy_from_table

@@ -2,11 +2,13 @@
 module fuge_c_layers
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
   use fuge_c_arrays, only: find_array
-  use fuge_c_operator, only: new_operator
+  use fuge_c_operator, only: find_matrix, new_operator
   use fuge_c_types, only: report_to_c, require_count, require_pointer
   use fuge_halfplane_fft, only: fuge_halfplane_operator
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_layered_body_type, only: fuge_layered_body
+  use fuge_layered_matrices, only: fuge_layered_halfplane_matrix, fuge_layered_halfspace_matrix, &
+    fuge_layered_ring_matrix
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info
   implicit none
@@ -61,6 +63,73 @@ contains
     call new_operator(operator, destination, info)
     status = report_to_c(info, message, length)
   end function c_operator_layered_halfspace
+
+  !> Fifteen arguments, as in the header: the layers, the other body, the cells, the symmetry, the matrix, the message.
+  function c_layered_halfplane_matrix(layers, thickness, young, poisson, bonded, e_star_other, n, x, width, element, &
+                                      symmetric, alpha, lda, message, length) &
+    bind(c, name='fuge_layered_halfplane_matrix') result(status)
+    integer(c_int), intent(in), value :: layers, bonded, n, element, symmetric, lda
+    real(c_double), intent(in), value :: e_star_other
+    type(c_ptr), intent(in), value :: thickness, young, poisson, x, width, alpha, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: centre(:), breadth(:), matrix(:, :)
+    type(fuge_layered_body) :: body
+    type(fuge_info) :: info
+
+    call find_matrix(n, alpha, lda, matrix, info)
+    call find_array(n, x, 'x', centre, info)
+    call find_array(n, width, 'width', breadth, info)
+    call find_layers(layers, thickness, young, poisson, bonded, e_star_other, body, info)
+    if (.not. info%failed()) call fuge_layered_halfplane_matrix(body, centre, breadth, int(element), matrix, info, &
+                                                                symmetric /= 0)
+    status = report_to_c(info, message, length)
+  end function c_layered_halfplane_matrix
+
+  !> Eighteen arguments, as in the header: the layers, the other body, the rectangles, the symmetry, the matrix, the
+  !> message.
+  function c_layered_halfspace_matrix(layers, thickness, young, poisson, bonded, e_star_other, n, x, y, width_x, &
+                                      width_y, element, symmetric_x, symmetric_y, alpha, lda, message, length) &
+    bind(c, name='fuge_layered_halfspace_matrix') result(status)
+    integer(c_int), intent(in), value :: layers, bonded, n, element, symmetric_x, symmetric_y, lda
+    real(c_double), intent(in), value :: e_star_other
+    type(c_ptr), intent(in), value :: thickness, young, poisson, x, y, width_x, width_y, alpha, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: centre_x(:), centre_y(:), breadth_x(:), breadth_y(:), matrix(:, :)
+    type(fuge_layered_body) :: body
+    type(fuge_info) :: info
+
+    call find_matrix(n, alpha, lda, matrix, info)
+    call find_array(n, x, 'x', centre_x, info)
+    call find_array(n, y, 'y', centre_y, info)
+    call find_array(n, width_x, 'width_x', breadth_x, info)
+    call find_array(n, width_y, 'width_y', breadth_y, info)
+    call find_layers(layers, thickness, young, poisson, bonded, e_star_other, body, info)
+    if (.not. info%failed()) call fuge_layered_halfspace_matrix(body, centre_x, centre_y, breadth_x, breadth_y, &
+                                                                int(element), matrix, info, symmetric_x /= 0, &
+                                                                symmetric_y /= 0)
+    status = report_to_c(info, message, length)
+  end function c_layered_halfspace_matrix
+
+  !> Twelve arguments, as in the header: the layers, the other body, the rings, the matrix, the message.
+  function c_layered_ring_matrix(layers, thickness, young, poisson, bonded, e_star_other, n, radius, alpha, lda, &
+                                 message, length) bind(c, name='fuge_layered_ring_matrix') result(status)
+    integer(c_int), intent(in), value :: layers, bonded, n, lda
+    real(c_double), intent(in), value :: e_star_other
+    type(c_ptr), intent(in), value :: thickness, young, poisson, radius, alpha, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: radii(:), matrix(:, :)
+    type(fuge_layered_body) :: body
+    type(fuge_info) :: info
+
+    call find_matrix(n, alpha, lda, matrix, info)
+    if (.not. info%failed()) call find_array(n + 1, radius, 'radius', radii, info)
+    call find_layers(layers, thickness, young, poisson, bonded, e_star_other, body, info)
+    if (.not. info%failed()) call fuge_layered_ring_matrix(body, radii, matrix, info)
+    status = report_to_c(info, message, length)
+  end function c_layered_ring_matrix
 
   !> Eleven arguments, as in the header: the layers, the other body, the waves, the message.
   function c_layered_waves(layers, thickness, young, poisson, bonded, e_star_other, waves, q, compliance, message, &
