@@ -66,18 +66,16 @@ contains
   !>
   !> `nx`, `ny` >= 1, any numbers; `spacing_x`, `spacing_y` length; `e_star` force per length squared. `element`
   !> FUGE_CENTRE or FUGE_MEAN (default). `boundary` FUGE_FREE (default): the matrix of `fuge_halfspace_matrix`;
-  !> FUGE_PERIODIC: the periods are nx*spacing_x and ny*spacing_y, and displacements count from the mean of the
-  !> surface, so that A is singular: equal forces on all cells displace nothing; FUGE_PERIODIC_X, FUGE_PERIODIC_Y: in
-  !> one direction only. Then the mean along that direction is displaced as a half-plane, by a logarithm without a
-  !> datum at infinity: displacements are zero, as those of `fuge_halfplane_operator`, at the distance of twice the
-  !> length of the grid along the free direction, ny*spacing_y for FUGE_PERIODIC_X. `measured`
-  !> (default .false.) lets FFTW time its algorithms and take the fastest.
-  !> `body`: the surface of `fuge_layered_body`, if the body has layers; `e_star` is theirs then, and on a rigid base equal
-  !> forces displace a periodic surface too.
-  !> The arguments are ten, because the last four are optional and named by the caller.
-  !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
-  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a
-  !> library without FFTW.
+  !> FUGE_PERIODIC: the periods are nx*spacing_x and ny*spacing_y, and displacements count from the mean of the surface,
+  !> so that A is singular: equal forces on all cells displace nothing; FUGE_PERIODIC_X, FUGE_PERIODIC_Y: in one
+  !> direction only. Then the mean along that direction is displaced as a half-plane, by a logarithm without a datum at
+  !> infinity: displacements are zero, as those of `fuge_halfplane_operator`, at the distance of twice the length of the
+  !> grid along the free direction, ny*spacing_y for FUGE_PERIODIC_X. `measured` (default .false.) lets FFTW time its
+  !> algorithms and take the fastest. `body`: the surface of `fuge_layered_body`, if the body has layers; `e_star` is
+  !> theirs then, and on a rigid base equal forces displace a periodic surface too. The arguments are ten, because the
+  !> last four are optional and named by the caller. Errors, which leave the operator as it was: FUGE_ERR_SIZE,
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW,
+  !> FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a library without FFTW.
   subroutine set(self, nx, ny, spacing_x, spacing_y, e_star, info, element, boundary, measured, body)
     class(fuge_halfspace_operator), intent(inout) :: self
     integer, intent(in) :: nx, ny

@@ -108,8 +108,8 @@ contains
   !> The `column` and `row` 0, 1, .. of each rectangle, if they are cells of one grid, up to rounding.
   !>
   !> `x` to `width_y` (n) as in fuge_halfspace_matrix; `images` (2), one or two in each direction; `mirror` (2) as in
-  !> `find_places`. `extent` (2): the largest distances in columns and rows, negative if the rectangles are no such cells,
-  !> or if there are many more distances than rectangles. Nine arguments: the rectangles, and their places.
+  !> `find_places`. `extent` (2): the largest distances in columns and rows, negative if the rectangles are no such
+  !> cells, or if there are many more distances than rectangles. Nine arguments: the rectangles, and their places.
   pure subroutine find_grid(x, y, width_x, width_y, images, column, row, mirror, extent)
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:)
     integer, intent(in) :: images(2)

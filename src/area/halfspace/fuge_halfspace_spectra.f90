@@ -112,8 +112,8 @@ contains
     if (status == 0) call transpose_blocks(table, spectrum)
   end subroutine transform_along_x
 
-  !> Influence coefficients of a free surface: `table` (0:, begin:), the rows from number `begin` on of a table of `rows`.
-  !> `status` as in an allocate statement.
+  !> Influence coefficients of a free surface: `table` (0:, begin:), the rows from number `begin` on of a table of
+  !> `rows`. `status` as in an allocate statement.
   subroutine fill_rows(grid, begin, rows, table, status)
     type(halfspace_grid), intent(in) :: grid
     integer, intent(in) :: begin, rows

@@ -80,8 +80,10 @@ contains
     call find_rule(grid, maxval(grid%spacing*surface), 0, node, weight, stat)
     if (stat /= 0) return
     allocate (along_x(0:max(ubound(kernel, 2), 0), size(node)), along_y(0:ubound(kernel, 1), size(node)), stat=stat)
-    if (stat == 0) call fill_circle(surface(1), wanted_waves(1), node*(least/grid%spacing(1)), grid%element, .true., along_x, stat)
-    if (stat == 0) call fill_circle(surface(2), wanted_waves(2), node*(least/grid%spacing(2)), grid%element, .true., along_y, stat)
+    if (stat == 0) call fill_circle(surface(1), wanted_waves(1), node*(least/grid%spacing(1)), grid%element, .true., &
+                                    along_x, stat)
+    if (stat == 0) call fill_circle(surface(2), wanted_waves(2), node*(least/grid%spacing(2)), grid%element, .true., &
+                                    along_y, stat)
     if (stat /= 0 .or. size(kernel, 2) < 1) return
     if (begin == 0) then
       call multiply(along_y, weight, along_x, kernel)
@@ -101,8 +103,8 @@ contains
     if (all(wanted_waves) .and. begin == 0) kernel(0, 0) = 0.0_dp
   end subroutine fill_periodic_columns
 
-  !> Nodes, in units of the shorter spacing, and weights, length per force, of the integral for the body of `grid`, up to the period, or the
-  !> distances in `free` directions, of the length `longest`.
+  !> Nodes, in units of the shorter spacing, and weights, length per force, of the integral for the body of `grid`, up
+  !> to the period, or the distances in `free` directions, of the length `longest`.
   subroutine find_rule(grid, longest, free, node, weight, stat)
     type(halfspace_grid), intent(in) :: grid
     real(dp), intent(in) :: longest
@@ -122,7 +124,8 @@ contains
   end subroutine find_rule
 
   !> Influence coefficients of a free surface: `table` (0:nx - 1, begin:), of cells i and j cells apart along x and y,
-  !> displacement per force, the rows from number `begin` on of a table of `rows`. Only for a body that is no half-space.
+  !> displacement per force, the rows from number `begin` on of a table of `rows`. Only for a body that is no
+  !> half-space.
   subroutine fill_free_rows(grid, begin, rows, table, stat)
     type(halfspace_grid), intent(in) :: grid
     integer, intent(in) :: begin, rows
@@ -182,8 +185,8 @@ contains
     call find_rule(grid, grid%spacing(direction)*surface, 0, node, weight, stat)
     if (stat /= 0) return
     allocate (round(0:ubound(kernel, 2), size(node)), along(0:m, size(node)), logarithm(0:m), stat=stat)
-    if (stat == 0) call fill_circle(surface, wanted_waves, node*(least/grid%spacing(direction)), grid%element, .false., round, &
-                                    stat)
+    if (stat == 0) call fill_circle(surface, wanted_waves, node*(least/grid%spacing(direction)), grid%element, &
+                                    .false., round, stat)
     if (stat == 0) call fill_line(grid, grid%spacing(across), logarithm, far, stat)
     if (stat /= 0) return
     do k = 1, size(node)

@@ -65,17 +65,15 @@ contains
 
   !> Set the operator of `n` cells of width `spacing`, side by side.
   !>
-  !> `n` >= 1; `spacing` length; `e_star` = E/(1 - nu^2) in plane strain, force per
-  !> length squared. `element` FUGE_CENTRE, FUGE_MEAN (default) or FUGE_HAT; the last
-  !> two are the same on a uniform grid. `boundary` FUGE_FREE (default): the matrix of
-  !> `fuge_halfplane_matrix`; FUGE_PERIODIC: the period is n*spacing, and displacements
-  !> count from the mean of the surface, so that A is singular: equal forces on all
-  !> cells displace nothing, unless the body lies on a rigid base. `measured` (default .false.) lets FFTW time its
-  !> algorithms and take the fastest. `body`: the surface of `fuge_layered_body`, if the body has layers; `e_star` is theirs
-  !> then. The arguments are nine, because the last four are optional and named by the caller.
-  !> Errors, which leave the operator as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
-  !> FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a
-  !> library without FFTW.
+  !> `n` >= 1; `spacing` length; `e_star` = E/(1 - nu^2) in plane strain, force per length squared. `element`
+  !> FUGE_CENTRE, FUGE_MEAN (default) or FUGE_HAT; the last two are the same on a uniform grid. `boundary` FUGE_FREE
+  !> (default): the matrix of `fuge_halfplane_matrix`; FUGE_PERIODIC: the period is n*spacing, and displacements count
+  !> from the mean of the surface, so that A is singular: equal forces on all cells displace nothing, unless the body
+  !> lies on a rigid base. `measured` (default .false.) lets FFTW time its algorithms and take the fastest. `body`: the
+  !> surface of `fuge_layered_body`, if the body has layers; `e_star` is theirs then. The arguments are nine, because
+  !> the last four are optional and named by the caller. Errors, which leave the operator as it was: FUGE_ERR_SIZE,
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW,
+  !> FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a library without FFTW.
   subroutine set(self, n, spacing, e_star, info, element, boundary, measured, body)
     class(fuge_halfplane_operator), intent(inout) :: self
     integer, intent(in) :: n

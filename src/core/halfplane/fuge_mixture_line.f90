@@ -35,8 +35,8 @@ module fuge_mixture_line
 contains
 
   !> `coefficient`: at the distances of 0 .. `last` cells the displacement by a force on a cell of the width `spacing`,
-  !> times e_star, per length of the cells. As on a half-plane it falls like the logarithm of the distance in cells, unless
-  !> the base is rigid. `power`: averages over a cell, 1 or 2. `stat` as in an allocate statement.
+  !> times e_star, per length of the cells. As on a half-plane it falls like the logarithm of the distance in cells,
+  !> unless the base is rigid. `power`: averages over a cell, 1 or 2. `stat` as in an allocate statement.
   subroutine tabulate_distances(body, spacing, power, last, coefficient, stat)
     type(wave_mixture), intent(in) :: body
     real(dp), intent(in) :: spacing

@@ -138,7 +138,8 @@ contains
     end if
   end function last_node
 
-  !> Weights of a few nodes for all t below `t`, that of number `first`: exact for polynomials of the degree SHORTER - 1.
+  !> Weights of a few nodes for all t below `t`, that of number `first`: exact for polynomials of the degree SHORTER -
+  !> 1.
   subroutine stand_for_shorter(self, first, t, node, weight, stat)
     class(wave_mixture), intent(in) :: self
     integer, intent(in) :: first
@@ -199,8 +200,9 @@ contains
     total = begin*(self%limit/(exp(-power) - 1.0_dp) + tail/(exp(2.0_dp*STEP - power) - 1.0_dp))
   end function rest_of_series
 
-  !> What the longest t add at all distances in one direction, with the nodes of a rule for `free` = 1, so that for large
-  !> distances x the sum of weight/node*exp(-(x/(2 node))**2) and this is limit*log(1/x): x and nodes in units of `cell`.
+  !> What the longest t add at all distances in one direction, with the nodes of a rule for `free` = 1, so that for
+  !> large distances x the sum of weight/node*exp(-(x/(2 node))**2) and this is limit*log(1/x): x and nodes in units of
+  !> `cell`.
   pure function line_constant(self, cell, node, weight) result(constant)
     class(wave_mixture), intent(in) :: self
     real(dp), intent(in) :: cell, node(:), weight(:)
@@ -209,7 +211,8 @@ contains
 
     count = size(node) - LONGER
     last = nint(log(node(count)*cell/self%unit)/STEP)
-    constant = -self%limit*(log(2.0_dp*node(count)) + 0.5_dp*STEP - 0.5_dp*EULER) - sum(weight(count + 1:)/node(count + 1:))
+    constant = -self%limit*(log(2.0_dp*node(count)) + 0.5_dp*STEP - 0.5_dp*EULER) &
+               - sum(weight(count + 1:)/node(count + 1:))
     ! Weights that still differ from the limit.
     do k = last + 1, size(self%weight) - 1
       constant = constant + STEP*(self%weight_of(k) - self%limit)

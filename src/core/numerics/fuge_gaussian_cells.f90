@@ -1,5 +1,5 @@
-!> Gaussians on cells side by side, averaged over a cell or over two: their shares of the cells, and the sums of the waves
-!> that are the same on the cells. The width of a cell is the unit of length.
+!> Gaussians on cells side by side, averaged over a cell or over two: their shares of the cells, and the sums of the
+!> waves that are the same on the cells. The width of a cell is the unit of length.
 module fuge_gaussian_cells
   use fuge_constants, only: PI
   use fuge_kinds, only: dp
@@ -67,8 +67,8 @@ contains
     density = exp(-(x/(2.0_dp*t))**2)/(2.0_dp*sqrt(PI)*t)
   end function gaussian
 
-  !> `sums` of the size of `mu`: for each wave of `mu` periods in a cell, 0 <= mu <= 1/2, the sum over all waves that are
-  !> the same on the cells of sinc(q/2)**`power` exp(-(t q)**2).
+  !> `sums` of the size of `mu`: for each wave of `mu` periods in a cell, 0 <= mu <= 1/2, the sum over all waves that
+  !> are the same on the cells of sinc(q/2)**`power` exp(-(t q)**2).
   pure subroutine fill_gaussian_sums(mu, t, power, sums)
     real(dp), intent(in), contiguous :: mu(:)
     real(dp), intent(in) :: t

@@ -1,5 +1,5 @@
-!> What layers add to the displacement of a half-space of their short waves at a distance from a force on a point, or on a
-!> line, tabulated. There the half-space is singular; what is added is smooth, the smoother the farther away.
+!> What layers add to the displacement of a half-space of their short waves at a distance from a force on a point, or on
+!> a line, tabulated. There the half-space is singular; what is added is smooth, the smoother the farther away.
 module fuge_layer_kernel
   use fuge_chebyshev, only: chebyshev_coefficients, chebyshev_points
   use fuge_constants, only: PI
@@ -8,8 +8,8 @@ module fuge_layer_kernel
   implicit none
   private
 
-  !> Degree of the series on each interval. The first interval ends at this multiple of the shortest t, below the depth of
-  !> the nearest image; each other one has twice the length of that before it.
+  !> Degree of the series on each interval. The first interval ends at this multiple of the shortest t, below the depth
+  !> of the nearest image; each other one has twice the length of that before it.
   integer, parameter :: DEGREE = 32
   real(dp), parameter :: FIRST = 4.0_dp
 
@@ -25,9 +25,9 @@ module fuge_layer_kernel
 
 contains
 
-  !> Tabulate the displacement, times e_star, by a force of 1 on a point (`directions` = 2), or on a line by a force of 1
-  !> per length (1), at distances up to `longest`. On lines displacements are zero at the distance `datum` on the half-space
-  !> below the layers. `stat` as in an allocate statement.
+  !> Tabulate the displacement, times e_star, by a force of 1 on a point (`directions` = 2), or on a line by a force of
+  !> 1 per length (1), at distances up to `longest`. On lines displacements are zero at the distance `datum` on the
+  !> half-space below the layers. `stat` as in an allocate statement.
   subroutine set(self, body, directions, longest, datum, stat)
     class(layer_kernel), intent(inout) :: self
     type(wave_mixture), intent(in) :: body

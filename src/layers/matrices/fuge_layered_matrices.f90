@@ -21,9 +21,9 @@ contains
 
   !> The influence matrix of cells on the surface of a layered half-plane.
   !>
-  !> `body` after its `set`; the other arguments are those of fuge_halfplane_matrix without e_star. Far away displacements
-  !> are those of the half-space below the layers, zero at the same distance as there; on a rigid base they fall off.
-  !> Errors, alpha untouched: as there, and FUGE_ERR_CALL_ORDER for a body that is not set.
+  !> `body` after its `set`; the other arguments are those of fuge_halfplane_matrix without e_star. Far away
+  !> displacements are those of the half-space below the layers, zero at the same distance as there; on a rigid base
+  !> they fall off. Errors, alpha untouched: as there, and FUGE_ERR_CALL_ORDER for a body that is not set.
   subroutine fuge_layered_halfplane_matrix(body, x, width, element, alpha, info, symmetric)
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: x(:), width(:)
@@ -70,8 +70,9 @@ contains
 
   !> The influence matrix of rectangles on the surface of a layered half-space.
   !>
-  !> `body` after its `set`; the other arguments are those of fuge_halfspace_matrix without e_star; ten arguments, because
-  !> the last two are optional. Errors, alpha untouched: as there, and FUGE_ERR_CALL_ORDER for a body that is not set.
+  !> `body` after its `set`; the other arguments are those of fuge_halfspace_matrix without e_star; ten arguments,
+  !> because the last two are optional. Errors, alpha untouched: as there, and FUGE_ERR_CALL_ORDER for a body that is
+  !> not set.
   subroutine fuge_layered_halfspace_matrix(body, x, y, width_x, width_y, element, alpha, info, symmetric_x, symmetric_y)
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:)
@@ -140,8 +141,8 @@ contains
 
   !> The influence matrix of rings on the surface of a layered half-space.
   !>
-  !> `body` after its `set`; `radius` and `alpha` as those of fuge_ring_matrix, with the element FUGE_MEAN. Errors, alpha
-  !> untouched: as there, and FUGE_ERR_CALL_ORDER for a body that is not set.
+  !> `body` after its `set`; `radius` and `alpha` as those of fuge_ring_matrix, with the element FUGE_MEAN. Errors,
+  !> alpha untouched: as there, and FUGE_ERR_CALL_ORDER for a body that is not set.
   subroutine fuge_layered_ring_matrix(body, radius, alpha, info)
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: radius(:)
@@ -179,8 +180,8 @@ contains
     if (.not. body%is_set()) call report(info, FUGE_ERR_CALL_ORDER, 'body: no layers are set')
   end subroutine require_set
 
-  !> A distance that none of two points of the rectangles, or of their images, exceeds; whatever it is for rectangles that
-  !> are refused.
+  !> A distance that none of two points of the rectangles, or of their images, exceeds; whatever it is for rectangles
+  !> that are refused.
   pure function farthest(x, y, width_x, width_y) result(distance)
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:)
     real(dp) :: distance

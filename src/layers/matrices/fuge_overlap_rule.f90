@@ -63,8 +63,8 @@ contains
     if (plateau > 0.0_dp) call add_piece(self, d, [-plateau, plateau], [half, a*b], smooth)
   end subroutine set
 
-  !> Add the nodes for s in the interval `piece`. `lengths` are half the sum of the two intervals, and their product, for
-  !> the density.
+  !> Add the nodes for s in the interval `piece`. `lengths` are half the sum of the two intervals, and their product,
+  !> for the density.
   pure subroutine add_piece(self, d, piece, lengths, smooth)
     class(overlap_rule), intent(inout) :: self
     real(dp), intent(in) :: d, piece(2), lengths(2), smooth

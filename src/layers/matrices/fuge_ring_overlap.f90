@@ -1,5 +1,5 @@
-!> Means over two rings about one axis of what layers add at the distance between a point of one and a point of the other
-!> one.
+!> Means over two rings about one axis of what layers add at the distance between a point of one and a point of the
+!> other one.
 module fuge_ring_overlap
   use fuge_constants, only: PI
   use fuge_gauss_legendre, only: gauss_rules
@@ -28,8 +28,8 @@ contains
 
   !> The mean of `kernel` over the rings from `one(1)` to `one(2)` and from `other(1)` to `other(2)`.
   !>
-  !> The mean over two circles of the radii r and s is smooth over their difference, but near 0, and over their sum, so that
-  !> these are the variables.
+  !> The mean over two circles of the radii r and s is smooth over their difference, but near 0, and over their sum, so
+  !> that these are the variables.
   pure function mean_of(self, kernel, one, other) result(mean)
     class(ring_overlap), intent(in) :: self
     type(layer_kernel), intent(in) :: kernel

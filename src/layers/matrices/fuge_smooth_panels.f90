@@ -1,5 +1,5 @@
-!> Intervals in panels for quadrature of a function that is smooth over a length near some places and, away from them, over
-!> the distance from them.
+!> Intervals in panels for quadrature of a function that is smooth over a length near some places and, away from them,
+!> over the distance from them.
 module fuge_smooth_panels
   use fuge_kinds, only: dp
   implicit none
@@ -15,8 +15,8 @@ module fuge_smooth_panels
 
 contains
 
-  !> The panels from `ends(1, k)` to `ends(2, k)`, k = 1 .. `count`, of the interval from `low` to `high`: none is longer
-  !> than `smooth`, or than its distance from the nearest of the `places` where that is larger.
+  !> The panels from `ends(1, k)` to `ends(2, k)`, k = 1 .. `count`, of the interval from `low` to `high`: none is
+  !> longer than `smooth`, or than its distance from the nearest of the `places` where that is larger.
   pure subroutine divide(low, high, places, smooth, ends, count)
     real(dp), intent(in) :: low, high, places(:), smooth
     real(dp), intent(out) :: ends(2, PANELS)

@@ -42,8 +42,8 @@ contains
     rigid = self%shear(size(self%shear)) > huge(1.0_dp)
   end function is_rigid
 
-  !> T of waves far longer than all layers: the ratio of the plane-strain moduli of top layer and substrate, 0 on a rigid
-  !> base.
+  !> T of waves far longer than all layers: the ratio of the plane-strain moduli of top layer and substrate, 0 on a
+  !> rigid base.
   pure function factor_of_longest(self) result(factor)
     class(layer_stack), intent(in) :: self
     real(dp) :: factor
@@ -55,8 +55,8 @@ contains
     end associate
   end function factor_of_longest
 
-  !> T: a wave `q` > 0 of pressure, 1/length, displaces the surface by 2 T/(E q) times itself, E the plane-strain modulus
-  !> of the top layer. Near 1 for short waves; for long ones the ratio of the moduli of top layer and substrate.
+  !> T: a wave `q` > 0 of pressure, 1/length, displaces the surface by 2 T/(E q) times itself, E the plane-strain
+  !> modulus of the top layer. Near 1 for short waves; for long ones the ratio of the moduli of top layer and substrate.
   pure function wave_factor(self, q) result(factor)
     class(layer_stack), intent(in) :: self
     real(dp), intent(in) :: q

@@ -13,8 +13,8 @@ module fuge_layered_body_type
 
   !> The largest ratio of two thicknesses or moduli.
   real(dp), parameter :: LARGEST_RATIO = 1.0e8_dp
-  !> Long waves are those of the substrate to rounding, or on a rigid base negligible, from this many times the length on
-  !> at which the layers and the substrate displace the surface equally.
+  !> Long waves are those of the substrate to rounding, or on a rigid base negligible, from this many times the length
+  !> on at which the layers and the substrate displace the surface equally.
   real(dp), parameter :: LONG = 1.0e3_dp, LONG_ON_RIGID = 30.0_dp
   !> On a rigid base that length grows with this power of the ratio of moduli: a stiff film bends as a plate.
   real(dp), parameter :: POWER_ON_RIGID = 0.34_dp
@@ -50,14 +50,13 @@ contains
 
   !> Describe a body of layers, and the other one.
   !>
-  !> `thickness` (layers >= 0), length, from the surface down. `young` force per length squared, and `poisson`, from 0 to
-  !> 0.5, both (layers + 1): the last ones are those of the half-space below the layers; its modulus may be infinite, a
-  !> rigid base. `bonded` (layers, default .true.): is the bottom of each layer bonded? Otherwise it slides without
-  !> friction, and never comes off. `e_star_other`: E/(1 - nu**2) of the other body, a half-space; infinite, the default,
-  !> if it is rigid. `other`: the other body if it has layers; it comes with no third one. Seven arguments are of one
-  !> body each or named by the caller.
-  !> Errors, which leave the description as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS,
-  !> FUGE_ERR_MEMORY.
+  !> `thickness` (layers >= 0), length, from the surface down. `young` force per length squared, and `poisson`, from 0
+  !> to 0.5, both (layers + 1): the last ones are those of the half-space below the layers; its modulus may be infinite,
+  !> a rigid base. `bonded` (layers, default .true.): is the bottom of each layer bonded? Otherwise it slides without
+  !> friction, and never comes off. `e_star_other`: E/(1 - nu**2) of the other body, a half-space; infinite, the
+  !> default, if it is rigid. `other`: the other body if it has layers; it comes with no third one. Seven arguments are
+  !> of one body each or named by the caller. Errors, which leave the description as it was: FUGE_ERR_SIZE,
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_MEMORY.
   subroutine set(self, thickness, young, poisson, info, bonded, e_star_other, other)
     class(fuge_layered_body), intent(inout) :: self
     real(dp), intent(in) :: thickness(:), young(:), poisson(:)
@@ -282,9 +281,9 @@ contains
     if (self%share(2) > 0.0_dp) factor = factor + self%share(2)*self%second%wave_factor(q)
   end function factor_of_wave
 
-  !> `compliance`: 2 T/(e_star q), displacement per pressure, length over force per length squared, of the waves `q` > 0,
-  !> 1/length. Errors, `compliance` untouched: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH
-  !> for one that is not positive.
+  !> `compliance`: 2 T/(e_star q), displacement per pressure, length over force per length squared, of the waves `q` >
+  !> 0, 1/length. Errors, `compliance` untouched: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
+  !> FUGE_ERR_WIDTH for one that is not positive.
   subroutine find_compliances(self, q, compliance, info)
     class(fuge_layered_body), intent(in) :: self
     real(dp), intent(in) :: q(:)

@@ -29,9 +29,9 @@ module fuge_set_extension
 
   !> Slopes of more grids are those of the last one.
   integer, parameter :: LEVELS = 16
-  !> From one grid to the next the cover grows by this factor on a half-space. With 2 a lone cell would reach as far as its
-  !> force, whose displacement falls off like 1/r, with 1 as far as its share of the area. In between the condition is
-  !> least: on rough surfaces 1.2, for any grid and load, but 1.8 with 1 and 2.4 with 2.
+  !> From one grid to the next the cover grows by this factor on a half-space. With 2 a lone cell would reach as far as
+  !> its force, whose displacement falls off like 1/r, with 1 as far as its share of the area. In between the condition
+  !> is least: on rough surfaces 1.2, for any grid and load, but 1.8 with 1 and 2.4 with 2.
   real(sp), parameter :: GROWTH = 1.2_sp
   !> Where displacements by waves fall like q**-s, those by a lone force fall like r**(s - 2): the growth is 2**(s - 1)
   !> times as large, at most this. A stiff film bends as a plate, s = 4: what touches it moves it far around.
