@@ -141,8 +141,8 @@ contains
   end subroutine require_double
 
   !> Compute the kernels in single precision unless that was done, or their numbers were out of range: from those in
-  !> double precision, which are not kept if they are not there. Several threads may ask at once. Where memory is short
-  !> there are none this time.
+  !> double precision, which are not kept if they are not there. Several threads may ask at once. Where memory is too
+  !> short for these, there are none this time.
   subroutine require_single(self, grid, plan)
     class(kernel_store), intent(in) :: self
     type(halfspace_grid), intent(in) :: grid
