@@ -1,10 +1,11 @@
 !> The spectra of the influence operator of a grid on the half-space and of its preconditioner.
 module fuge_halfspace_spectra
+  use fuge_even_spectrum, only: kernel_values, transform_columns, transform_rows
   use fuge_grid_convolution, only: grid_kernel
   use fuge_grid_plan, only: grid_plan
   use fuge_halfplane_fft, only: FUGE_FREE
   use fuge_halfspace_grid, only: cyclic, halfspace_grid, periodic, FUGE_PERIODIC_X, FUGE_PERIODIC_Y
-  use fuge_halfspace_table, only: fill_halfspace_table
+  use fuge_halfspace_table, only: fill_halfspace_rows
   use fuge_halfspace_waves, only: fill_periodic_eigenvalues, fill_periodic_kernel, fill_strip_kernel
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE
@@ -13,7 +14,23 @@ module fuge_halfspace_spectra
 
   public :: bytes_needed, compute_spectra, invert
 
+  !> The coefficients of a free surface.
+  type, extends(kernel_values), public :: grid_values
+    type(halfspace_grid) :: grid
+  contains
+    procedure :: fill
+  end type grid_values
+
 contains
+
+  subroutine fill(self, begin, count, table, stat)
+    class(grid_values), intent(in) :: self
+    integer, intent(in) :: begin, count
+    real(dp), intent(inout), contiguous :: table(:, :)
+    integer, intent(out) :: stat
+
+    call fill_halfspace_rows(self%grid%spacing, self%grid%e_star, self%grid%element, begin, count, table, stat)
+  end subroutine fill
 
   !> `influence`, of A, and `inverse`, of the preconditioner, on the circles of `plan`; `datum` is what is subtracted
   !> from all coefficients. `status`: 0, else memory is short.
@@ -61,7 +78,7 @@ contains
     type(grid_kernel), intent(inout) :: influence
     real(dp), intent(inout) :: datum
     integer, intent(out) :: status
-    real(dp), allocatable :: table(:, :), spectrum(:, :)
+    real(dp), allocatable :: spectrum(:, :)
     logical :: closed(2), padded(2)
     integer :: extent(2)
 
@@ -69,49 +86,41 @@ contains
     padded = .not. closed .and. grid%cells > 1
     extent = merge(plan%length, plan%length/2, padded)
     allocate (spectrum(0:extent(2), 0:extent(1)), stat=status)
-    if (status /= 0) return
-    if (all(periodic(grid))) then
-      call fill_periodic_kernel(grid%period, closed, grid%spacing, grid%e_star, grid%element, &
-                                spectrum, status)
-    else if (grid%boundary == FUGE_PERIODIC_X) then
-      call fill_strip_kernel(1, grid%period(1), closed(1), grid%reach, grid%spacing, grid%e_star, &
-                             grid%element, spectrum, datum, status)
+    if (status == 0) call fill_spectrum(grid, closed, spectrum, datum, status)
+    if (status == 0 .and. grid%boundary == FUGE_FREE) then
+      call transform_rows(plan, padded(1), spectrum, status, grid_values(grid))
+    else if (status == 0 .and. .not. closed(1)) then
+      call transform_rows(plan, padded(1), spectrum, status)
     end if
-    if (status == 0 .and. (.not. closed(1) .or. grid%boundary == FUGE_PERIODIC_Y)) then
-      allocate (table(0:extent(1), 0:extent(2)), stat=status)
-      if (status == 0) call transform_along_x(grid, plan, padded(1), table, spectrum, datum, status)
-    end if
-    if (status == 0 .and. .not. closed(2)) call plan%transform_even(2, padded(2), spectrum, status)
+    if (status == 0 .and. .not. closed(2)) call transform_columns(plan, padded(2), spectrum, status)
     if (status /= 0) return
     ! The datum of a strip is the mean over the circle.
     if (any(closed) .and. .not. all(periodic(grid))) spectrum(0, 0) = 0.0_dp
     call influence%set(plan, padded, spectrum, status)
   end subroutine compute_influence
 
-  !> Fill `table` (along x, along y) if `spectrum` (along y, along x) is not filled yet, and transform it along x to
-  !> `spectrum`.
-  subroutine transform_along_x(grid, plan, padded, table, spectrum, datum, status)
+  !> Coefficients, and waves in directions that are `closed`, of a surface that is periodic in at least one direction.
+  subroutine fill_spectrum(grid, closed, spectrum, datum, status)
     type(halfspace_grid), intent(in) :: grid
-    type(grid_plan), intent(in) :: plan
+    logical, intent(in) :: closed(2)
+    real(dp), intent(inout), contiguous :: spectrum(:, :)
     real(dp), intent(inout) :: datum
-    logical, intent(in) :: padded
-    real(dp), intent(inout), contiguous :: table(:, :), spectrum(:, :)
     integer, intent(out) :: status
-    logical :: closed(2)
+    real(dp), allocatable :: turned(:, :)
 
     status = FUGE_DONE
-    closed = cyclic(grid)
-    if (grid%boundary == FUGE_FREE) then
-      call fill_halfspace_table(grid%spacing, grid%e_star, grid%element, table, status)
+    if (all(periodic(grid))) then
+      call fill_periodic_kernel(grid%period, closed, grid%spacing, grid%e_star, grid%element, spectrum, status)
+    else if (grid%boundary == FUGE_PERIODIC_X) then
+      call fill_strip_kernel(1, grid%period(1), closed(1), grid%reach, grid%spacing, grid%e_star, &
+                             grid%element, spectrum, datum, status)
     else if (grid%boundary == FUGE_PERIODIC_Y) then
-      call fill_strip_kernel(2, grid%period(2), closed(2), grid%reach, grid%spacing, grid%e_star, &
-                             grid%element, table, datum, status)
-    else
-      call transpose_blocks(spectrum, table)
+      allocate (turned(size(spectrum, 2), size(spectrum, 1)), stat=status)
+      if (status == 0) call fill_strip_kernel(2, grid%period(2), closed(2), grid%reach, grid%spacing, grid%e_star, &
+                                              grid%element, turned, datum, status)
+      if (status == 0) call transpose_blocks(turned, spectrum)
     end if
-    if (status == 0 .and. .not. closed(1)) call plan%transform_even(1, padded, table, status)
-    if (status == 0) call transpose_blocks(table, spectrum)
-  end subroutine transform_along_x
+  end subroutine fill_spectrum
 
   !> transpose() of a block after the other, each of which stays in cache.
   pure subroutine transpose_blocks(a, b)
@@ -129,7 +138,7 @@ contains
     end do
   end subroutine transpose_blocks
 
-  !> The two spectra, and the greater one of a table of coefficients and the rows of a product.
+  !> The two spectra and the rows of a product.
   pure function bytes_needed(grid, length) result(bytes)
     type(halfspace_grid), intent(in) :: grid
     integer, intent(in) :: length(2)
@@ -138,7 +147,7 @@ contains
 
     circle = merge(0.5_dp, 1.0_dp, cyclic(grid))*length + 1.0_dp
     rows = 2.0_dp*circle(1)*(grid%cells(2) + 1)
-    bytes = 8.0_dp*(product(circle) + product(0.5_dp*length + 1.0_dp) + max(product(circle), rows))
+    bytes = 8.0_dp*(product(circle) + product(0.5_dp*length + 1.0_dp) + rows)
   end function bytes_needed
 
 end module fuge_halfspace_spectra
