@@ -235,6 +235,7 @@ contains
     character(len=*), intent(in) :: size_text
     type(scene), intent(in) :: all(:)
     character(len=40) :: cell
+    character(len=8) :: ratio
     integer :: j
 
     if (.not. allocated(lines)) then
@@ -249,7 +250,8 @@ contains
         if (this%reference == j) then
           write (cell, '(i0,a,i0,a,i0,a)') this%products, ' + ', this%preconditionings, ', ', nint(1.0e6_dp*this%seconds), ' us'
         else
-          write (cell, '(i0,a,i0,a,f4.2)') this%products, ' + ', this%preconditionings, ', ', this%seconds/first%seconds
+          write (ratio, '(f8.2)') this%seconds/first%seconds
+          write (cell, '(i0,a,i0,a)') this%products, ' + ', this%preconditionings, ', '//trim(adjustl(ratio))
         end if
         lines(j + 2) = trim(lines(j + 2))//' | '//trim(cell)
         largest_residual = max(largest_residual, this%residual)

@@ -73,8 +73,10 @@ contains
   function some_forces(n) result(force)
     integer, intent(in) :: n
     real(dp) :: force(n)
+    integer(int64) :: seed
 
-    call random_number(force)
+    seed = seed_of(n)
+    call draw(seed, force)
     where (force < 0.3_dp) force = 0.0_dp
     force = force - 0.1_dp
     if (n == 1) force = 2.0_dp

@@ -12,6 +12,7 @@
 module fuge_sliced_convolution
   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc, c_null_ptr, c_ptr
   use fuge_constants, only: PI
+  use fuge_even_spectrum, only: kernel_values
   use fuge_fft, only: allocate_values, fft_plan, good_length, release_buffer
   use fuge_grid_convolution, only: convolve_line
   use fuge_grid_plan, only: grid_plan
@@ -25,24 +26,6 @@ module fuge_sliced_convolution
 
   !> Columns of a buffer: 256 bytes of each row. And rows of the kernel that are computed together.
   integer, parameter :: COLUMNS = 16, ROWS = 32
-
-  !> A kernel that is even in both directions, by its values.
-  type, abstract, public :: kernel_values
-  contains
-    procedure(fill_rows), deferred :: fill
-  end type kernel_values
-
-  abstract interface
-    !> `table` (nx, rows): the values at the distances of 0, 1, .. cells along x, and of `begin`, begin + 1, .. cells
-    !> along y, of a grid of `count` rows. `stat` as in an allocate statement.
-    subroutine fill_rows(self, begin, count, table, stat)
-      import :: dp, kernel_values
-      class(kernel_values), intent(in) :: self
-      integer, intent(in) :: begin, count
-      real(dp), intent(inout), contiguous :: table(:, :)
-      integer, intent(out) :: stat
-    end subroutine fill_rows
-  end interface
 
   !> One product, for the threads that share it.
   type, extends(work_in_parts) :: sliced_product

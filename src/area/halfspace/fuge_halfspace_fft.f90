@@ -4,8 +4,8 @@ module fuge_halfspace_fft
   use fuge_constants, only: PI
   use fuge_grid_plan, only: grid_plan
   use fuge_grid_operator_type, only: grid_operator
-  use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, count_coarser, halfspace_grid, is_large, &
-    least_magnitude, periodic
+  use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, computes_later, count_coarser, halfspace_grid, &
+    is_large, least_magnitude, periodic
   use fuge_halfspace_kernels, only: bytes_in_slices, kernel_store, multiply_in_slices
   use fuge_halfspace_spectra, only: bytes_needed
   use fuge_kept_rows, only: drop_rows
@@ -20,8 +20,9 @@ module fuge_halfspace_fft
   private
 
   !> Equal rectangles in a grid on a half-space: call `set`, then solve. It keeps the coarser grids of its
-  !> solves, which takes a third of the memory again. A free grid of more than 4096 x 4096 cells computes
-  !> coefficients when a solve first needs them, and those of products in double precision for each product.
+  !> solves, which takes a third of the memory again. Coefficients are computed when a solve first needs them, on a
+  !> surface that is periodic in one direction only by `set`, and on a free grid of more than 4096 x 4096 cells for each
+  !> product in double precision.
   !>
   !> Copy it by assignment, never by allocate(source=), because it owns plans of FFTW.
   type, extends(grid_operator), public :: fuge_halfspace_operator
@@ -35,7 +36,7 @@ module fuge_halfspace_fft
     type(grid_plan) :: plan
     !> The same in single precision.
     type(single_plan) :: single
-    !> Those of a large grid are computed when they are first needed.
+    !> On most surfaces they are computed when they are first needed.
     type(kernel_store) :: store
   contains
     procedure :: set
@@ -114,7 +115,7 @@ contains
     suited = all(mod(operator%plan%length, 2) == 0)
     if (suited) call operator%single%set(operator%surface%cells, operator%plan%length, single_info, operator%measured)
     call operator%store%create(status)
-    if (status == 0 .and. .not. is_large(operator%surface)) then
+    if (status == 0 .and. .not. computes_later(operator%surface)) then
       call operator%store%compute_all(operator%surface, operator%plan, suited .and. .not. single_info%failed(), &
                                       operator%datum_value, status)
     end if
@@ -217,7 +218,9 @@ contains
       call multiply_in_slices(self%surface, self%plan, size(force), force, displacement, status)
       return
     end if
-    call self%store%kernels%influence%convolve(self%plan, size(force), force, displacement, status)
+    call require_kernels(self, status)
+    if (status == FUGE_DONE) call self%store%kernels%influence%convolve(self%plan, size(force), force, displacement, &
+                                                                        status)
   end subroutine apply
 
   !> The number subtracted from all coefficients, length per force; 0 unless one direction only is periodic.
@@ -250,21 +253,21 @@ contains
     integer, intent(out) :: status
 
     call self%check_sizes(size(displacement), size(force), status)
-    if (status == FUGE_DONE) call require_inverse(self, status)
+    if (status == FUGE_DONE) call require_kernels(self, status)
     if (status /= FUGE_DONE) return
     call self%store%kernels%inverse%convolve(self%plan, size(force), displacement, force, status)
   end subroutine precondition
 
-  !> The kernels of a large grid, in double precision. `status`: 0 or FUGE_ERR_MEMORY.
-  subroutine require_inverse(operator, status)
+  !> The kernels in double precision, unless they came with the grid. `status`: 0 or FUGE_ERR_MEMORY.
+  subroutine require_kernels(operator, status)
     type(fuge_halfspace_operator), intent(in) :: operator
     integer, intent(out) :: status
 
     status = FUGE_DONE
-    if (.not. is_large(operator%surface)) return
+    if (.not. computes_later(operator%surface)) return
     call operator%store%require_double(operator%surface, operator%plan, status)
     if (status /= 0) status = FUGE_ERR_MEMORY
-  end subroutine require_inverse
+  end subroutine require_kernels
 
   !> True after `set`.
   function has_preconditioner_on_bed(self) result(preconditioned)
@@ -296,7 +299,7 @@ contains
     integer, intent(out) :: status
 
     call self%check_sizes(size(displacement), size(force), status)
-    if (status == FUGE_DONE) call require_inverse(self, status)
+    if (status == FUGE_DONE) call require_kernels(self, status)
     if (status /= FUGE_DONE) return
     call self%store%kernels%inverse%convolve(self%plan, size(displacement), displacement, force, status, compliance)
   end subroutine precondition_on_bed
@@ -306,10 +309,15 @@ contains
   function has_single(self) result(single)
     class(fuge_halfspace_operator), intent(in) :: self
     logical :: single
+    integer :: status
 
     single = self%points() > 0 .and. associated(self%store%kernels) .and. self%single%cells(1) > 0
     if (.not. single) return
-    if (is_large(self%surface)) call self%store%require_single(self%surface, self%plan)
+    if (computes_later(self%surface)) then
+      ! The certificate needs those in double precision, on a large grid none.
+      if (.not. is_large(self%surface)) call require_kernels(self, status)
+      call self%store%require_single(self%surface, self%plan)
+    end if
     associate (kernels => self%store%kernels)
       single = kernels%single_influence%is_set() .and. kernels%single_inverse%is_set()
     end associate

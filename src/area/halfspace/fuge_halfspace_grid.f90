@@ -14,7 +14,7 @@ module fuge_halfspace_grid
   implicit none
   private
 
-  public :: check_grid, circle_of, coarsened, complete, count_coarser, cyclic, is_large, &
+  public :: check_grid, circle_of, coarsened, complete, computes_later, count_coarser, cyclic, is_large, &
     least_magnitude, periodic
 
   !> `boundary`: the cells repeat periodically along x, and beyond them along y the surface is free.
@@ -141,6 +141,14 @@ contains
 
     large = grid%boundary == FUGE_FREE .and. all(grid%cells > 1) .and. product(grid%cells) > MANY
   end function is_large
+
+  !> Are its kernels computed when a solve first needs them? Not where they come with a datum.
+  pure function computes_later(grid) result(later)
+    type(halfspace_grid), intent(in) :: grid
+    logical :: later
+
+    later = grid%boundary == FUGE_FREE .or. all(periodic(grid))
+  end function computes_later
 
   !> The length L for which the terms of the displacement by the forces f on a surface with a period are about the sum
   !> of |f|/(e_star L): the extent across the direction whose longest wave has the largest terms. One cell has no waves.

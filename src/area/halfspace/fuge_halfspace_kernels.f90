@@ -1,16 +1,16 @@
-!> The kernels of a grid on the half-space: all computed at once, or those of a large free grid when they are first
-!> needed, so that a solve which needs few of them, on a window, has none of the size of the grid.
+!> The kernels of a grid on the half-space, computed when they are first needed: by the threads of a solve, and so that
+!> one which needs few of them, on a window of a large grid, has none of the size of the grid.
 module fuge_halfspace_kernels
   use, intrinsic :: iso_c_binding, only: c_associated, c_loc, c_null_ptr, c_ptr
   use fuge_grid_convolution, only: grid_kernel
   use fuge_grid_plan, only: grid_plan
   use fuge_halfspace_grid, only: halfspace_grid
-  use fuge_halfspace_spectra, only: bytes_needed, compute_spectra, fill_rows
+  use fuge_halfspace_spectra, only: bytes_needed, compute_spectra, grid_values
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_GRIDS
   use fuge_memory, only: check_memory
   use fuge_single_grid_convolution, only: round_kernel, single_kernel => grid_kernel
-  use fuge_sliced_convolution, only: convolve_in_slices, kernel_values
+  use fuge_sliced_convolution, only: convolve_in_slices
   use fuge_status, only: fuge_info, FUGE_DONE
   implicit none
   private
@@ -46,13 +46,6 @@ module fuge_halfspace_kernels
     procedure :: require_single
     final :: finish
   end type kernel_store
-
-  !> The coefficients of a grid.
-  type, extends(kernel_values) :: grid_values
-    type(halfspace_grid) :: grid
-  contains
-    procedure :: fill
-  end type grid_values
 
 contains
 
@@ -140,8 +133,8 @@ contains
   end subroutine require_double
 
   !> Compute the kernels in single precision unless that was done, or their numbers were out of range: from those in
-  !> double precision, which are not kept if they are not there. Several threads may ask at once. Where memory is short
-  !> there are none this time.
+  !> double precision, which are not kept if they are not there. Several threads may ask at once. Where memory is too
+  !> short for these, there are none this time.
   subroutine require_single(self, grid, plan)
     class(kernel_store), intent(in) :: self
     type(halfspace_grid), intent(in) :: grid
@@ -250,15 +243,5 @@ contains
 
     bytes = (8.0_dp*TOGETHER*(rows + 1) + 16.0_dp*grid%cells(2))*grid%cells(1)/SLICES
   end function bytes_in_slices
-
-  subroutine fill(self, begin, count, table, stat)
-    class(grid_values), intent(in) :: self
-    integer, intent(in) :: begin, count
-    real(dp), intent(inout), contiguous :: table(:, :)
-    integer, intent(out) :: stat
-
-    stat = FUGE_DONE
-    call fill_rows(self%grid, begin, count, table, stat)
-  end subroutine fill
 
 end module fuge_halfspace_kernels

@@ -1,11 +1,12 @@
 !> The spectra of the influence operator of a grid on the half-space and of its preconditioner.
 module fuge_halfspace_spectra
+  use fuge_even_spectrum, only: kernel_values, transform_columns, transform_rows
   use fuge_grid_convolution, only: grid_kernel
   use fuge_grid_plan, only: grid_plan
   use fuge_halfplane_fft, only: FUGE_FREE
   use fuge_halfspace_grid, only: cyclic, halfspace_grid, periodic, FUGE_PERIODIC_X, FUGE_PERIODIC_Y
   use fuge_halfspace_table, only: fill_halfspace_rows
-  use fuge_halfspace_waves, only: fill_free_rows, fill_periodic_eigenvalues, fill_periodic_kernel, &
+  use fuge_halfspace_waves, only: fill_free_columns, fill_free_rows, fill_periodic_eigenvalues, fill_periodic_kernel, &
     fill_strip_kernel
   use fuge_kinds, only: dp
   use fuge_status, only: FUGE_DONE
@@ -14,7 +15,24 @@ module fuge_halfspace_spectra
 
   public :: bytes_needed, compute_spectra, fill_rows, invert
 
+  !> The coefficients of a free surface.
+  type, extends(kernel_values), public :: grid_values
+    type(halfspace_grid) :: grid
+  contains
+    procedure :: fill
+  end type grid_values
+
 contains
+
+  subroutine fill(self, begin, count, table, stat)
+    class(grid_values), intent(in) :: self
+    integer, intent(in) :: begin, count
+    real(dp), intent(inout), contiguous :: table(:, :)
+    integer, intent(out) :: stat
+
+    stat = FUGE_DONE
+    call fill_rows(self%grid, begin, count, table, stat)
+  end subroutine fill
 
   !> `influence`, of A, and `inverse`, of the preconditioner, on the circles of `plan`; `datum` is what is subtracted
   !> from all coefficients. `status`: 0, else memory is short.
@@ -24,17 +42,22 @@ contains
     type(grid_kernel), intent(inout) :: influence, inverse
     real(dp), intent(inout) :: datum
     integer, intent(out) :: status
-    real(dp), allocatable :: eigenvalue(:, :)
+    real(dp), allocatable :: eigenvalue(:, :), same(:, :)
     integer :: length(2)
 
     length = plan%length
     allocate (eigenvalue(0:length(2)/2, 0:length(1)/2), stat=status)
     if (status == 0) call fill_periodic_eigenvalues(grid, length, eigenvalue, status)
+    if (status == 0 .and. all(cyclic(grid))) allocate (same, source=eigenvalue, stat=status)
     if (status == 0) then
       call invert(eigenvalue, grid%e_star*sqrt(product(grid%spacing)))
       call inverse%set(plan, [.false., .false.], eigenvalue, status)
     end if
-    if (status == 0) call compute_influence(grid, plan, influence, datum, status)
+    if (status == 0 .and. all(cyclic(grid))) then
+      call influence%set(plan, [.false., .false.], same, status)
+    else if (status == 0) then
+      call compute_influence(grid, plan, influence, datum, status)
+    end if
   end subroutine compute_spectra
 
   !> The inverse of all eigenvalues. Where that of the constant is 0 any positive number is valid for it; that of the
@@ -63,7 +86,7 @@ contains
     type(grid_kernel), intent(inout) :: influence
     real(dp), intent(inout) :: datum
     integer, intent(out) :: status
-    real(dp), allocatable :: table(:, :), spectrum(:, :)
+    real(dp), allocatable :: spectrum(:, :)
     logical :: closed(2), padded(2)
     integer :: extent(2)
 
@@ -71,46 +94,42 @@ contains
     padded = .not. closed .and. grid%cells > 1
     extent = merge(plan%length, plan%length/2, padded)
     allocate (spectrum(0:extent(2), 0:extent(1)), stat=status)
-    if (status /= 0) return
-    if (all(periodic(grid))) then
-      call fill_periodic_kernel(grid, grid%period, closed, spectrum, status)
-    else if (grid%boundary == FUGE_PERIODIC_X) then
-      call fill_strip_kernel(grid, 1, grid%period(1), closed(1), spectrum, datum, status)
+    if (status == 0) call fill_spectrum(grid, closed, spectrum, datum, status)
+    if (status == 0 .and. grid%boundary == FUGE_FREE .and. .not. grid%body%is_set()) then
+      call transform_rows(plan, padded(1), spectrum, status, grid_values(grid))
+    else if (status == 0 .and. .not. closed(1)) then
+      call transform_rows(plan, padded(1), spectrum, status)
     end if
-    if (status == 0 .and. (.not. closed(1) .or. grid%boundary == FUGE_PERIODIC_Y)) then
-      allocate (table(0:extent(1), 0:extent(2)), stat=status)
-      if (status == 0) call transform_along_x(grid, plan, padded(1), table, spectrum, datum, status)
-    end if
-    if (status == 0 .and. .not. closed(2)) call plan%transform_even(2, padded(2), spectrum, status)
+    if (status == 0 .and. .not. closed(2)) call transform_columns(plan, padded(2), spectrum, status)
     if (status /= 0) return
     ! The datum of a strip is the mean over the circle.
     if (any(closed) .and. .not. all(periodic(grid))) spectrum(0, 0) = 0.0_dp
     call influence%set(plan, padded, spectrum, status)
   end subroutine compute_influence
 
-  !> Fill `table` (along x, along y) if `spectrum` (along y, along x) is not filled yet, and transform it along x to
-  !> `spectrum`.
-  subroutine transform_along_x(grid, plan, padded, table, spectrum, datum, status)
+  !> Coefficients, and waves in directions that are `closed`; not those of a free half-space, which can be computed in
+  !> parts.
+  subroutine fill_spectrum(grid, closed, spectrum, datum, status)
     type(halfspace_grid), intent(in) :: grid
-    type(grid_plan), intent(in) :: plan
+    logical, intent(in) :: closed(2)
+    real(dp), intent(inout), contiguous :: spectrum(:, :)
     real(dp), intent(inout) :: datum
-    logical, intent(in) :: padded
-    real(dp), intent(inout), contiguous :: table(:, :), spectrum(:, :)
     integer, intent(out) :: status
-    logical :: closed(2)
+    real(dp), allocatable :: turned(:, :)
 
     status = FUGE_DONE
-    closed = cyclic(grid)
-    if (grid%boundary == FUGE_FREE) then
-      call fill_rows(grid, 0, size(table, 2), table, status)
+    if (all(periodic(grid))) then
+      call fill_periodic_kernel(grid, grid%period, closed, spectrum, status)
+    else if (grid%boundary == FUGE_PERIODIC_X) then
+      call fill_strip_kernel(grid, 1, grid%period(1), closed(1), spectrum, datum, status)
     else if (grid%boundary == FUGE_PERIODIC_Y) then
-      call fill_strip_kernel(grid, 2, grid%period(2), closed(2), table, datum, status)
-    else
-      call transpose_blocks(spectrum, table)
+      allocate (turned(size(spectrum, 2), size(spectrum, 1)), stat=status)
+      if (status == 0) call fill_strip_kernel(grid, 2, grid%period(2), closed(2), turned, datum, status)
+      if (status == 0) call transpose_blocks(turned, spectrum)
+    else if (grid%body%is_set()) then
+      call fill_free_columns(grid, 0, size(spectrum, 2), spectrum, status)
     end if
-    if (status == 0 .and. .not. closed(1)) call plan%transform_even(1, padded, table, status)
-    if (status == 0) call transpose_blocks(table, spectrum)
-  end subroutine transform_along_x
+  end subroutine fill_spectrum
 
   !> Influence coefficients of a free surface: `table` (0:, begin:), the rows from number `begin` on of a table of
   !> `rows`. `status` as in an allocate statement.
@@ -143,7 +162,7 @@ contains
     end do
   end subroutine transpose_blocks
 
-  !> The two spectra, and the greater one of a table of coefficients and the rows of a product.
+  !> The two spectra and the rows of a product.
   pure function bytes_needed(grid, length) result(bytes)
     type(halfspace_grid), intent(in) :: grid
     integer, intent(in) :: length(2)
@@ -152,7 +171,7 @@ contains
 
     circle = merge(0.5_dp, 1.0_dp, cyclic(grid))*length + 1.0_dp
     rows = 2.0_dp*circle(1)*(grid%cells(2) + 1)
-    bytes = 8.0_dp*(product(circle) + product(0.5_dp*length + 1.0_dp) + max(product(circle), rows))
+    bytes = 8.0_dp*(product(circle) + product(0.5_dp*length + 1.0_dp) + rows)
   end function bytes_needed
 
 end module fuge_halfspace_spectra

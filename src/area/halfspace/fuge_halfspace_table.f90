@@ -49,12 +49,14 @@ contains
     call set_widths(kernel, observed, spacing)
     near_x = near_count(observed, spacing, 1, size(table, 1))
     near_y = near_count(observed, spacing, 2, rows)
-    allocate (near(0:near_x - 1, 0:near_y - 1), stat=stat)
-    if (stat == 0) call near_table(spacing, element == FUGE_CENTRE, factor, near, stat)
-    if (stat /= 0) return
-    do j = begin, min(near_y - 1, ubound(table, 2))
-      table(:near_x - 1, j) = near(:, j)
-    end do
+    if (begin < near_y) then
+      allocate (near(0:near_x - 1, 0:near_y - 1), stat=stat)
+      if (stat == 0) call near_table(spacing, element == FUGE_CENTRE, factor, near, stat)
+      if (stat /= 0) return
+      do j = begin, min(near_y - 1, ubound(table, 2))
+        table(:near_x - 1, j) = near(:, j)
+      end do
+    end if
     do i = 0, ubound(table, 1)
       offset = exact_product(real(i, dp), spacing(1))
       x_high(i) = offset%high

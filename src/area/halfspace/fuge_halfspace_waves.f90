@@ -15,19 +15,20 @@
 !> Fourier transform of its sums.
 module fuge_halfspace_waves
   use fuge_constants, only: PI
-  use fuge_gaussian_cells, only: fill_gaussian_sums, fill_shares, NEGLIGIBLE
+  use fuge_gaussian_cells, only: NEGLIGIBLE
+  use fuge_gaussian_products, only: fill_distances, fill_waves, multiply
   use fuge_graded_series, only: graded_series
   use fuge_grid_plan, only: grid_plan
   use fuge_halfplane_influence, only: mean_log, FUGE_CENTRE
   use fuge_halfspace_grid, only: halfspace_grid
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgemm
   use fuge_mixture_line, only: tabulate_distances
   use fuge_status, only: fuge_info
   implicit none
   private
 
-  public :: fill_free_rows, fill_periodic_columns, fill_periodic_eigenvalues, fill_periodic_kernel, fill_strip_kernel
+  public :: fill_free_columns, fill_free_rows, fill_periodic_columns, fill_periodic_eigenvalues, fill_periodic_kernel, &
+    fill_strip_kernel
 
   !> Step of the trapezoidal rule in log t; its relative error is 3 exp(-pi**2/(2 STEP)).
   real(dp), parameter :: STEP = 0.12_dp
@@ -131,23 +132,33 @@ contains
     integer, intent(in) :: begin, rows
     real(dp), intent(inout), contiguous :: table(0:, begin:)
     integer, intent(out) :: stat
-    real(dp), allocatable :: node(:), weight(:), along_x(:, :), along_y(:, :), all_rows(:)
+    type(halfspace_grid) :: turned
+
+    turned = grid
+    turned%spacing = grid%spacing(2:1:-1)
+    call fill_free_columns(turned, begin, rows, table, stat)
+  end subroutine fill_free_rows
+
+  !> As fill_free_rows with x and y exchanged: `table` (0:ny - 1, begin:), the columns from number `begin` on of a table
+  !> of `columns`.
+  subroutine fill_free_columns(grid, begin, columns, table, stat)
+    type(halfspace_grid), intent(in) :: grid
+    integer, intent(in) :: begin, columns
+    real(dp), intent(inout), contiguous :: table(0:, begin:)
+    integer, intent(out) :: stat
+    real(dp), allocatable :: node(:), weight(:), along_x(:, :), along_y(:, :)
     real(dp) :: least
-    integer :: k
 
     least = minval(grid%spacing)
-    call find_rule(grid, hypot(size(table, 1)*grid%spacing(1), rows*grid%spacing(2)), 2, node, weight, stat)
+    call find_rule(grid, hypot(size(table, 1)*grid%spacing(2), columns*grid%spacing(1)), 2, node, weight, stat)
     if (stat /= 0) return
-    allocate (along_x(0:ubound(table, 1), size(node)), along_y(begin:ubound(table, 2), size(node)), &
-              all_rows(0:ubound(table, 2)), stat=stat)
+    allocate (along_x(0:ubound(table, 2), size(node)), along_y(0:ubound(table, 1), size(node)), stat=stat)
     if (stat /= 0) return
-    do k = 1, size(node)
-      call fill_shares(node(k)*(least/grid%spacing(1)), averages(grid%element), along_x(:, k))
-      call fill_shares(node(k)*(least/grid%spacing(2)), averages(grid%element), all_rows)
-      along_y(:, k) = all_rows(begin:)
-    end do
-    call multiply(along_x, weight, along_y, table)
-  end subroutine fill_free_rows
+    call fill_distances(node*(least/grid%spacing(1)), averages(grid%element), along_x)
+    call fill_distances(node*(least/grid%spacing(2)), averages(grid%element), along_y)
+    if (begin > 0) along_x = along_x(begin:, :)
+    call multiply(along_y, weight, along_x, table)
+  end subroutine fill_free_columns
 
   !> The constant on a circle of `n` cells: the first wave and the others, or at distance 0 and farther.
   pure function constant(n, waves) result(values)
@@ -176,7 +187,7 @@ contains
     integer, intent(out) :: stat
     real(dp), allocatable :: node(:), weight(:), round(:, :), along(:, :), logarithm(:)
     real(dp) :: factor, far, least, mean, constants(0:1)
-    integer :: across, j, k, m
+    integer :: across, j, m
 
     datum = 0.0_dp
     across = 3 - direction
@@ -189,9 +200,7 @@ contains
                                     .false., round, stat)
     if (stat == 0) call fill_line(grid, grid%spacing(across), logarithm, far, stat)
     if (stat /= 0) return
-    do k = 1, size(node)
-      call fill_shares(node(k)*(least/grid%spacing(across)), averages(grid%element), along(:, k))
-    end do
+    call fill_distances(node*(least/grid%spacing(across)), averages(grid%element), along)
     call multiply(along, weight, round, kernel)
     mean = logarithm(0)
     if (m > 0) mean = (logarithm(0) + logarithm(m) + 2.0_dp*sum(logarithm(1:m - 1)))/real(2*m, dp)
@@ -229,20 +238,6 @@ contains
     end if
   end subroutine fill_line
 
-  !> `kernel` = `along_y` diag(`weight`) transpose(`along_x`); `along_y` is undefined on return.
-  subroutine multiply(along_y, weight, along_x, kernel)
-    real(dp), intent(inout), contiguous :: along_y(:, :)
-    real(dp), intent(in), contiguous :: weight(:), along_x(:, :)
-    real(dp), intent(inout), contiguous :: kernel(:, :)
-    integer :: k
-
-    do k = 1, size(weight)
-      along_y(:, k) = weight(k)*along_y(:, k)
-    end do
-    call dgemm('N', 'T', size(along_y, 1), size(along_x, 1), size(weight), 1.0_dp, along_y, size(along_y, 1), along_x, &
-               size(along_x, 1), 0.0_dp, kernel, size(kernel, 1))
-  end subroutine multiply
-
   !> The sums of a periodic direction of `n` cells at the values `t` of t/h: `sums` (0:m, size(t)), of the waves 0 .. m,
   !> m <= n/2, or of the distances 0 .. m; with or without the wave 0, the `constant`.
   subroutine fill_circle(n, waves, t, element, constant, sums, stat)
@@ -259,10 +254,8 @@ contains
     allocate (mu(0:n/2), round(0:n/2, size(t)), stat=stat)
     if (stat /= 0) return
     mu = [(real(i, dp)/real(n, dp), i=0, n/2)]
-    do k = 1, size(t)
-      call fill_gaussian_sums(mu, t(k), averages(element), round(:, k))
-      if (.not. constant) round(0, k) = 0.0_dp
-    end do
+    call fill_waves(mu, t, averages(element), round)
+    if (.not. constant) round(0, :) = 0.0_dp
     if (waves) then
       sums = round(:ubound(sums, 1), :)
       return
