@@ -16,7 +16,7 @@ module fuge_layer_matrices
   implicit none
   private
 
-  public :: half_space_compliance, joined, layer_of, rest_on, slide_on
+  public :: carried_down, half_space_compliance, joined, layer_of, rest_on, slid_down, slide_on
 
   !> Below this thickness in wavelengths over 2 pi, differences of nearly equal functions are summed as series.
   real(dp), parameter :: THIN = 0.5_dp
@@ -165,6 +165,42 @@ contains
     end associate
     compliance = layer%compliance + transmitted(layer%transmission, free)
   end function slide_on
+
+  !> From the `traction` at the top of a layer, [x, z], to that and the `displacement` at its bottom, bonded to a body of
+  !> the compliance `below`.
+  pure subroutine carried_down(layer, below, displacement, traction)
+    type(layer_matrices), intent(in) :: layer
+    real(dp), intent(in) :: below(3)
+    real(dp), intent(out) :: displacement(2)
+    real(dp), intent(inout) :: traction(2)
+    real(dp) :: f(2)
+
+    f = matmul(transpose(layer%transmission), traction)
+    ! (1 + H C)^-1 f.
+    associate (c => below, h => layer%stiffness)
+      traction(1) = (1.0_dp + h(2)*c(2) + h(3)*c(3))*f(1) - (h(1)*c(2) + h(2)*c(3))*f(2)
+      traction(2) = (1.0_dp + h(1)*c(1) + h(2)*c(2))*f(2) - (h(2)*c(1) + h(3)*c(2))*f(1)
+      traction = traction/joint_determinant(h, c)
+      displacement = [c(1)*traction(1) + c(2)*traction(2), c(2)*traction(1) + c(3)*traction(2)]
+    end associate
+  end subroutine carried_down
+
+  !> As `carried_down`, where the layer slides on a body of the compliance `below` under pressure: the displacement of
+  !> the layer.
+  pure subroutine slid_down(layer, below, displacement, traction)
+    type(layer_matrices), intent(in) :: layer
+    real(dp), intent(in) :: below
+    real(dp), intent(out) :: displacement(2)
+    real(dp), intent(inout) :: traction(2)
+    real(dp) :: f(2)
+
+    f = matmul(transpose(layer%transmission), traction)
+    associate (h => layer%stiffness)
+      traction = [0.0_dp, (h(1)*f(2) - h(2)*f(1))/(h(1) + below*(h(1)*h(3) - h(2)**2))]
+      displacement(2) = below*traction(2)
+      displacement(1) = (f(1) - h(2)*displacement(2))/h(1)
+    end associate
+  end subroutine slid_down
 
   !> F M F^T, of a symmetric M.
   pure function transmitted(f, m) result(product)

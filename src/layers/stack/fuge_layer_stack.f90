@@ -6,6 +6,8 @@ module fuge_layer_stack
   implicit none
   private
 
+  public :: layer_number
+
   !> Layers on a half-space or a rigid base, from the surface down.
   type, extends(wave_symbol), public :: layer_stack
     !> Thicknesses, (layers), length.
@@ -26,7 +28,7 @@ module fuge_layer_stack
 contains
 
   !> Is it more than a half-space?
-  pure function has_layers(self) result(has)
+  elemental function has_layers(self) result(has)
     class(layer_stack), intent(in) :: self
     logical :: has
 

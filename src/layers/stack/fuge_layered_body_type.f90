@@ -35,6 +35,9 @@ module fuge_layered_body_type
     procedure :: surface
     procedure :: factor_of_wave
     procedure :: find_compliances
+    procedure :: layers
+    procedure :: has_layers
+    procedure :: poisson => poisson_of_top
     procedure :: is_set
   end type fuge_layered_body
 
@@ -270,6 +273,30 @@ contains
 
     surface = self%mixture
   end function surface
+
+  !> The layers of the body that was described, without the other one.
+  function layers(self) result(stack)
+    class(fuge_layered_body), intent(in) :: self
+    type(layer_stack) :: stack
+
+    stack = self%first
+  end function layers
+
+  !> Is it more than a half-space?
+  elemental function has_layers(self)
+    class(fuge_layered_body), intent(in) :: self
+    logical :: has_layers
+
+    has_layers = self%first%has_layers()
+  end function has_layers
+
+  !> Poisson's ratio of the top layer, of a body that is set.
+  pure function poisson_of_top(self) result(poisson)
+    class(fuge_layered_body), intent(in) :: self
+    real(dp) :: poisson
+
+    poisson = self%first%poisson(1)
+  end function poisson_of_top
 
   !> T of a wave `q` > 0, 1/length: pressure displaces the surface by 2 T/(e_star q) times itself.
   elemental function factor_of_wave(self, q) result(factor)

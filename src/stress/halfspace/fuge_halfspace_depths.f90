@@ -22,14 +22,14 @@ module fuge_halfspace_depths
   implicit none
   private
 
-  public :: fuge_halfspace_displacement_grid, fuge_halfspace_stress_grid
+  public :: check_stress_grid, convolve_tables, fuge_halfspace_displacement_grid, fuge_halfspace_stress_grid
 
   !> Kinds of kernels.
   logical, parameter :: EVEN(2) = [.false., .false.], ODD_X(2) = [.true., .false.], ODD_Y(2) = [.false., .true.], &
     ODD(2) = [.true., .true.]
 
   !> Those of the components.
-  logical, parameter :: STRESS_KINDS(2, 6) = reshape([EVEN, EVEN, EVEN, ODD_Y, ODD_X, ODD], [2, 6]), &
+  logical, parameter, public :: STRESS_KINDS(2, 6) = reshape([EVEN, EVEN, EVEN, ODD_Y, ODD_X, ODD], [2, 6]), &
     DISPLACEMENT_KINDS(2, 3) = reshape([ODD_X, ODD_Y, EVEN], [2, 3])
 
   !> Data that all depths share.
@@ -74,7 +74,8 @@ contains
     integer :: k
 
     call describe(nx, ny, spacing_x, spacing_y, boundary, poisson, work)
-    call check_arguments(work, force, depth, shape(stress), 'stress', 6, info)
+    if (.not. info%failed()) call check_poisson(poisson, info)
+    call check_stress_grid(work%grid, force, depth, shape(stress), 'stress', 6, info)
     if (.not. info%failed()) call start(work, force, info)
     call find_means(work, 6, depth, info)
     do k = 1, size(depth)
@@ -116,7 +117,7 @@ contains
     compliance = 0.0_dp
     call check_body(young, poisson, info)
     call describe(nx, ny, spacing_x, spacing_y, boundary, poisson, work)
-    call check_arguments(work, force, depth, shape(displacement), 'displacement', 3, info)
+    call check_stress_grid(work%grid, force, depth, shape(displacement), 'displacement', 3, info)
     call check_grid_strain(force, product(work%grid%spacing), young, info)
     if (.not. info%failed()) call start(work, force, info)
     call find_means(work, 3, depth, info)
@@ -161,24 +162,23 @@ contains
   end subroutine describe
 
   !> Errors as described at the public procedures, unless there is one already.
-  subroutine check_arguments(work, force, depth, given, name, components, info)
-    type(grid_work), intent(in) :: work
+  subroutine check_stress_grid(grid, force, depth, given, name, components, info)
+    type(halfspace_grid), intent(in) :: grid
     real(dp), intent(in) :: force(:), depth(:)
     integer, intent(in) :: given(3), components
     character(len=*), intent(in) :: name
     type(fuge_info), intent(inout) :: info
 
-    if (.not. info%failed()) call check_grid(work%grid, info)
-    if (.not. info%failed()) call check_poisson(work%poisson, info)
+    if (.not. info%failed()) call check_grid(grid, info)
     if (info%failed()) return
-    if (size(force) /= product(work%grid%cells)) then
-      call report(info, FUGE_ERR_SIZE, 'force has '//text(size(force))//' values for '//text(work%grid%cells(1)) &
-                  //' by '//text(work%grid%cells(2))//' cells')
+    if (size(force) /= product(grid%cells)) then
+      call report(info, FUGE_ERR_SIZE, 'force has '//text(size(force))//' values for '//text(grid%cells(1))//' by ' &
+                  //text(grid%cells(2))//' cells')
     end if
-    if (.not. info%failed()) call check_grid_force(force, product(work%grid%spacing), info)
-    call check_grid_depth(depth, minval(work%grid%spacing), info)
+    if (.not. info%failed()) call check_grid_force(force, product(grid%spacing), info)
+    call check_grid_depth(depth, minval(grid%spacing), info)
     call check_grid_result(given, name, [components, size(force), size(depth)], info)
-  end subroutine check_arguments
+  end subroutine check_stress_grid
 
   !> Transform the forces and prepare what all depths share. FUGE_ERR_MEMORY.
   subroutine start(work, force, info)

@@ -1,0 +1,130 @@
+!> Waves inside a body of elastic layers: the stresses and displacements at a depth.
+!>
+!> A wave of the pressure p cos(q n) on the surface gives
+!>
+!>     zz = Z p cos(q n),   nz = -X p sin(q n),   nn = N p cos(q n),   u_z = U p/(2 G q) cos(q n),
+!>     u_n = V p/(2 G q) sin(q n),
+!>
+!> G the shear modulus of the top layer, and across the wave tt = nu (nn + zz). Tractions go down from the surface
+!> through the matrices of the layers above the depth, which have no number that grows, and displacements come up from
+!> the compliance of what is below (fuge_layer_matrices).
+module fuge_layer_interior
+  use fuge_kinds, only: dp
+  use fuge_layer_matrices, only: carried_down, joined, layer_matrices, slid_down
+  use fuge_layer_stack, only: layer_number, layer_stack
+  implicit none
+  private
+
+  public :: cut_at
+
+  !> The numbers Z, X, N, tt/p, V and U of a wave.
+  integer, parameter, public :: ZZ = 1, NZ = 2, NN = 3, TT = 4, ALONG = 5, DOWN = 6
+
+  !> A body at a depth.
+  type, public :: layer_cut
+    !> The layers, of which one may end at the depth that it goes through, and how many are above it.
+    type(layer_stack) :: stack
+    integer :: above = 0
+    !> The layer at the depth, of those of the body, and the thickness of its top layer.
+    integer :: layer = 1
+    real(dp) :: thickness_of_top = 0.0_dp
+    !> Shear modulus over that of the top layer, and Poisson's ratio at the depth; is the lower side of an interface
+    !> meant?
+    real(dp) :: shear = 1.0_dp, poisson = 0.0_dp
+    logical :: below = .false.
+  contains
+    procedure :: response
+  end type layer_cut
+
+contains
+
+  !> The body `stack` at the `depth` >= 0: at an interface in the layer above it, or `below`.
+  pure function cut_at(stack, depth, below) result(cut)
+    type(layer_stack), intent(in) :: stack
+    real(dp), intent(in) :: depth
+    logical, intent(in) :: below
+    type(layer_cut) :: cut
+    real(dp) :: bottom, top
+    integer :: k, layers
+
+    layers = size(stack%thickness)
+    bottom = 0.0_dp
+    top = 0.0_dp
+    do k = 1, layers
+      top = bottom
+      bottom = sum(stack%thickness(:k))
+      if (depth < bottom .or. (.not. depth > bottom .and. .not. below)) exit
+      top = bottom
+    end do
+    cut%layer = k
+    if (layers > 0) cut%thickness_of_top = stack%thickness(1)
+    cut%shear = stack%shear(k)
+    cut%poisson = stack%poisson(k)
+    cut%stack = stack
+    cut%above = k - 1
+    if (.not. depth > top) then
+      cut%below = k > 1
+    else if (k <= layers .and. .not. depth < bottom) then
+      cut%above = k
+    else
+      cut%above = k
+      cut%stack%thickness = [stack%thickness(:k - 1), depth - top, stack%thickness(k:)]
+      if (k <= layers) cut%stack%thickness(k + 1) = bottom - depth
+      cut%stack%shear = [stack%shear(:k), stack%shear(k:)]
+      cut%stack%poisson = [stack%poisson(:k), stack%poisson(k:)]
+      cut%stack%bonded = [stack%bonded(:k - 1), .true., stack%bonded(k:)]
+    end if
+  end function cut_at
+
+  !> Z, X, N, tt/p, V and U for a wave `q` > 0.
+  pure function response(self, q)
+    class(layer_cut), intent(in) :: self
+    real(dp), intent(in) :: q
+    real(dp) :: response(6)
+    real(dp) :: displacement(2), traction(2)
+
+    call find_state(self, q, displacement, traction)
+    response(ZZ) = -traction(2)
+    response(NZ) = traction(1)
+    response(NN) = (self%poisson*response(ZZ) + self%shear*displacement(1))/(1.0_dp - self%poisson)
+    response(TT) = self%poisson*(response(NN) + response(ZZ))
+    response(ALONG) = displacement(1)
+    response(DOWN) = displacement(2)
+  end function response
+
+  !> Displacement and traction at the cut under unit traction on the surface, in units of the top layer's shear modulus.
+  pure subroutine find_state(cut, q, displacement, traction)
+    type(layer_cut), intent(in) :: cut
+    real(dp), intent(in) :: q
+    real(dp), intent(out) :: displacement(2), traction(2)
+    type(layer_matrices) :: bonded
+    real(dp) :: compliance(3)
+    integer :: first, k
+
+    traction = [0.0_dp, 1.0_dp]
+    k = 0
+    do while (k < cut%above)
+      ! Layers that are bonded to each other are one.
+      first = k + 1
+      k = first
+      bonded = layer_number(cut%stack, k, q)
+      do while (k < cut%above)
+        if (.not. cut%stack%bonded(k)) exit
+        k = k + 1
+        bonded = joined(bonded, layer_number(cut%stack, k, q))
+      end do
+      compliance = cut%stack%compliance_below(k, q)
+      if (cut%stack%bonded(k)) then
+        call carried_down(bonded, compliance, displacement, traction)
+      else
+        call slid_down(bonded, compliance(3), displacement, traction)
+      end if
+    end do
+    if (cut%above > 0 .and. .not. cut%below) return
+    ! The displacement of a surface, or of the lower side of an interface.
+    compliance = cut%stack%compliance_below(cut%above, q)
+    displacement = [compliance(1)*traction(1) + compliance(2)*traction(2), &
+                    compliance(2)*traction(1) + compliance(3)*traction(2)]
+  end subroutine find_state
+
+end module fuge_layer_interior

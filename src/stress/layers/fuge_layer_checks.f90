@@ -1,0 +1,49 @@
+!> A body of layers at the depths that the caller asks for.
+module fuge_layer_checks
+  use fuge_kinds, only: dp
+  use fuge_layer_interior, only: cut_at, layer_cut
+  use fuge_layer_stack, only: layer_stack
+  use fuge_layered_body_type, only: fuge_layered_body
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_GRID, FUGE_ERR_SIZE
+  implicit none
+  private
+
+  public :: cut_body
+
+contains
+
+  !> `cut` (m): the body at each `depth` (m) >= 0, length, at an interface above it unless `below` (m) says otherwise.
+  !> Errors, unless there is one already: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_GRID, FUGE_ERR_MEMORY.
+  subroutine cut_body(body, depth, cut, info, below)
+    type(fuge_layered_body), intent(in) :: body
+    real(dp), intent(in) :: depth(:)
+    type(layer_cut), allocatable, intent(out) :: cut(:)
+    type(fuge_info), intent(inout) :: info
+    logical, intent(in), optional :: below(:)
+    type(layer_stack) :: stack
+    logical :: lower
+    integer :: k, stat
+
+    if (info%failed()) return
+    if (.not. body%is_set()) call report(info, FUGE_ERR_CALL_ORDER, 'body: no layers are set')
+    if (present(below) .and. .not. info%failed()) then
+      if (size(below) /= size(depth)) call report(info, FUGE_ERR_SIZE, 'below has '//text(size(below)) &
+                                                  //' values for '//text(size(depth))//' depths')
+    end if
+    if (info%failed()) return
+    stack = body%layers()
+    allocate (cut(size(depth)), stat=stat)
+    call require_memory(stat, '', size(depth), 'depths', info)
+    do k = 1, size(depth)
+      if (info%failed()) return
+      lower = .false.
+      if (present(below)) lower = below(k)
+      cut(k) = cut_at(stack, depth(k), lower)
+      if (.not. cut(k)%shear > huge(1.0_dp)) cycle
+      call report(info, FUGE_ERR_GRID, 'depth '//text(k)//' = '//text(depth(k))//' is in the rigid base: the layers are ' &
+                  //text(sum(stack%thickness))//' thick')
+    end do
+  end subroutine cut_body
+
+end module fuge_layer_checks

@@ -1,0 +1,206 @@
+!> Stresses in a body of layers at depths below the centres of a grid of rectangles, by FFT.
+!>
+!> In the top layer they are those of a half-space of its material (fuge_halfspace_depths) and what the layers below
+!> change; deeper all of it is a mixture of Gaussians (fuge_depth_mixture), which make products of sums along both
+!> directions, of places or of waves.
+module fuge_layered_halfspace_depths
+  use fuge_depth_mixture, only: depth_mixture, fit_at_depth, uniform_stress, OF_DIFFERENCE, OF_NN, OF_SLOPE, OF_TT, &
+    OF_ZZ
+  use fuge_grid_waves, only: grid_waves
+  use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
+  use fuge_halfspace_depths, only: check_stress_grid, convolve_tables, fuge_halfspace_stress_grid, STRESS_KINDS
+  use fuge_halfspace_grid, only: halfspace_grid, periodic, FUGE_PERIODIC_X
+  use fuge_kinds, only: dp
+  use fuge_layer_checks, only: cut_body
+  use fuge_layer_interior, only: layer_cut
+  use fuge_layered_body_type, only: fuge_layered_body
+  use fuge_mixture_sums, only: mixture_sums, CIRCLE_OF, PLACES_OF, WAVES_OF
+  use fuge_status, only: fuge_info, require_memory
+  implicit none
+  private
+
+  public :: fuge_layered_halfspace_stress_grid
+
+  !> Data of all depths.
+  type :: grid_work
+    type(halfspace_grid) :: grid
+    type(grid_waves) :: waves
+    type(mixture_sums) :: sums
+    type(layer_cut), allocatable :: cut(:)
+    type(depth_mixture), allocatable :: mixture(:)
+    !> Factors of waves or influence at places; what a half-space gives, (6, nx*ny, 1).
+    real(dp), allocatable :: factor(:, :), plain(:, :, :)
+  end type grid_work
+
+contains
+
+  !> Stresses in a body of layers below the centres of a grid of equal rectangles, in O(n log n) operations for each
+  !> depth.
+  !>
+  !> `body` is set; they are those in the body that it was set with, not in the other one. `nx`, `ny`, `spacing_x`,
+  !> `spacing_y`, `force`, `boundary`, `depth` and `stress` as for `fuge_halfspace_stress_grid`. A depth at an interface
+  !> is above it, or below where `below` (m, default .false.) says so: xx, yy and xy differ. Errors are about 1e-10 of
+  !> the largest stress at that depth. With FUGE_PERIODIC the mean pressure gives the half-space below the layers no
+  !> stress along the surface, and the layers the same strain as it has, on a rigid base none.
+  !>
+  !> Eleven arguments, because the grid alone has four. Errors, stress untouched: as for `fuge_halfspace_stress_grid`,
+  !> FUGE_ERR_CALL_ORDER for a body that is not set, FUGE_ERR_GRID for a depth in a rigid base. Source:
+  !> doc/theory_layers.md.
+  subroutine fuge_layered_halfspace_stress_grid(body, nx, ny, spacing_x, spacing_y, force, boundary, depth, stress, &
+                                                info, below)
+    type(fuge_layered_body), intent(in) :: body
+    integer, intent(in) :: nx, ny, boundary
+    real(dp), intent(in) :: spacing_x, spacing_y, force(:), depth(:)
+    real(dp), intent(inout) :: stress(:, :, :)
+    type(fuge_info), intent(out) :: info
+    logical, intent(in), optional :: below(:)
+    type(grid_work) :: work
+    integer :: k
+
+    work%grid%cells = [nx, ny]
+    work%grid%spacing = [spacing_x, spacing_y]
+    work%grid%boundary = boundary
+    work%grid%e_star = 1.0_dp
+    call check_stress_grid(work%grid, force, depth, shape(stress), 'stress', 6, info)
+    call cut_body(body, depth, work%cut, info, below)
+    if (.not. info%failed() .and. .not. body%has_layers()) then
+      call fuge_halfspace_stress_grid(nx, ny, spacing_x, spacing_y, force, boundary, body%poisson(), depth, stress, info)
+      return
+    end if
+    call start(work, force, depth, info)
+    do k = 1, size(depth)
+      if (info%failed()) exit
+      if (work%cut(k)%layer == 1) then
+        call fuge_halfspace_stress_grid(nx, ny, spacing_x, spacing_y, force, boundary, work%cut(k)%poisson, &
+                                        depth(k:k), work%plain, info)
+        if (info%failed()) exit
+      else
+        work%plain = 0.0_dp
+      end if
+      call find_stress(work, work%mixture(k), stress(:, :, k))
+      stress(:, :, k) = stress(:, :, k)/(spacing_x*spacing_y) + work%plain(:, :, 1)
+      if (boundary == FUGE_PERIODIC) call add_mean(work%cut(k), sum(force)/(spacing_x*spacing_y*size(force)), &
+                                                   stress(:, :, k))
+    end do
+    call work%waves%free()
+  end subroutine fuge_layered_halfspace_stress_grid
+
+  !> Fit the mixtures, compute the sums and transform the forces. FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED.
+  subroutine start(work, force, depth, info)
+    type(grid_work), intent(inout) :: work
+    real(dp), intent(in) :: force(:), depth(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: extent(2), k, kind(2), stat
+
+    if (info%failed() .or. size(depth) < 1) return
+    allocate (work%mixture(size(depth)), work%plain(6, size(force), 1), stat=stat)
+    call require_memory(stat, 'stresses at', size(force), 'cells', info)
+    do k = 1, size(depth)
+      if (.not. info%failed()) call fit_at_depth(work%cut(k), depth(k), work%mixture(k), info)
+    end do
+    if (info%failed()) return
+    kind = PLACES_OF
+    where (periodic(work%grid)) kind = merge(WAVES_OF, CIRCLE_OF, work%grid%boundary == FUGE_PERIODIC)
+    call work%sums%prepare(work%grid%cells, work%grid%spacing, kind, minval(work%mixture%first), stat)
+    extent = merge(work%grid%cells - 1, work%grid%cells/2, kind == PLACES_OF)
+    if (stat == 0) allocate (work%factor(0:extent(1), 0:extent(2)), stat=stat)
+    call require_memory(stat, 'stresses at', size(force), 'cells', info)
+    if (.not. info%failed()) call work%waves%set(work%grid%cells, periodic(work%grid), &
+                                                 .not. all(periodic(work%grid)), info)
+    if (.not. info%failed()) call work%waves%transform(force)
+  end subroutine start
+
+  !> `stress` (6, nx*ny) of the mixture, times the area of a cell.
+  subroutine find_stress(work, mixture, stress)
+    type(grid_work), intent(inout) :: work
+    type(depth_mixture), intent(in) :: mixture
+    real(dp), intent(inout) :: stress(:, :)
+    integer :: c
+
+    do c = 1, 6
+      call fill_factor(work, mixture, c)
+      if (work%grid%boundary == FUGE_PERIODIC) then
+        work%factor(0, 0) = 0.0_dp
+        call work%waves%multiply(STRESS_KINDS(:, c), work%factor, stress(c, :))
+      else
+        call copy_table(work, mean_of_rows(work, mixture, c), stress(c, :))
+      end if
+    end do
+    if (work%grid%boundary /= FUGE_PERIODIC) call convolve_tables(work%waves, STRESS_KINDS, stress)
+  end subroutine find_stress
+
+  !> Component `c` of the stress under unit pressure on a cell, or of a wave of it.
+  subroutine fill_factor(work, mixture, c)
+    type(grid_work), intent(inout) :: work
+    type(depth_mixture), intent(in) :: mixture
+    integer, intent(in) :: c
+
+    work%factor = 0.0_dp
+    select case (c)
+    case (1, 2)
+      call work%sums%add_product(mixture, OF_TT, [0, 0], work%factor)
+      call work%sums%add_product(mixture, OF_DIFFERENCE, merge([2, 0], [0, 2], c == 1), work%factor)
+    case (3)
+      call work%sums%add_product(mixture, OF_ZZ, [0, 0], work%factor)
+    case (4, 5)
+      call work%sums%add_product(mixture, OF_SLOPE, merge([0, 1], [1, 0], c == 4), work%factor)
+    case default
+      call work%sums%add_product(mixture, OF_DIFFERENCE, [1, 1], work%factor)
+    end select
+  end subroutine fill_factor
+
+  !> Of a surface that is periodic along one direction: the mean of component `c` along it, at the cells across.
+  function mean_of_rows(work, mixture, c) result(mean)
+    type(grid_work), intent(in) :: work
+    type(depth_mixture), intent(in) :: mixture
+    integer, intent(in) :: c
+    real(dp), allocatable :: mean(:)
+    integer :: across, direction
+
+    direction = merge(1, 2, work%grid%boundary == FUGE_PERIODIC_X)
+    allocate (mean(work%grid%cells(3 - direction)), source=0.0_dp)
+    if (work%grid%boundary == FUGE_FREE) return
+    across = 3 - direction
+    if (c == across) then
+      mean = work%sums%in_plane(mixture, OF_NN, .false., across)
+    else if (c == direction) then
+      mean = work%sums%in_plane(mixture, OF_TT, .false., across)
+    else if (c == 3) then
+      mean = work%sums%in_plane(mixture, OF_ZZ, .false., across)
+    else if (c == merge(4, 5, direction == 1)) then
+      mean = work%sums%in_plane(mixture, OF_SLOPE, .true., across)
+    end if
+    mean = mean/real(work%grid%cells(direction), dp)
+  end function mean_of_rows
+
+  !> The table of one component (nx*ny): its mean along the rows and the factor, as far as that goes: along the rows to
+  !> half of a period, which is all that counts.
+  pure subroutine copy_table(work, mean, table)
+    type(grid_work), intent(in) :: work
+    real(dp), intent(in) :: mean(0:)
+    real(dp), intent(inout) :: table(0:)
+    integer :: i, j
+
+    table = 0.0_dp
+    do j = 0, ubound(work%factor, 2)
+      do i = 0, ubound(work%factor, 1)
+        table(i + work%grid%cells(1)*j) = work%factor(i, j) + mean(merge(j, i, work%grid%boundary == FUGE_PERIODIC_X))
+      end do
+    end do
+  end subroutine copy_table
+
+  !> What the mean pressure adds on a periodic surface; zz of a half-space is there already.
+  subroutine add_mean(cut, pressure, stress)
+    type(layer_cut), intent(in) :: cut
+    real(dp), intent(in) :: pressure
+    real(dp), intent(inout) :: stress(:, :)
+    real(dp) :: uniform(2)
+
+    uniform = pressure*uniform_stress(cut, .false.)
+    if (cut%layer == 1) uniform(2) = 0.0_dp
+    stress(1, :) = stress(1, :) + uniform(1)
+    stress(2, :) = stress(2, :) + uniform(1)
+    stress(3, :) = stress(3, :) + uniform(2)
+  end subroutine add_mean
+
+end module fuge_layered_halfspace_depths

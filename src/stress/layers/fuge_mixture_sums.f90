@@ -1,0 +1,152 @@
+!> Gaussians of many lengths on a grid of rectangles: the factors of its waves, or their values at its cells, along
+!> both directions, and the sums of their products with the weights of a mixture.
+module fuge_mixture_sums
+  use fuge_cell_gaussians, only: circle_work, fill_gaussian_circle, fill_gaussian_places, fill_gaussian_waves
+  use fuge_constants, only: PI
+  use fuge_depth_mixture, only: depth_mixture, POWERS, STEP
+  use fuge_kinds, only: dp
+  use fuge_lapack, only: dgemm
+  implicit none
+  private
+
+  !> exp(-x**2) is less than rounding.
+  real(dp), parameter :: NEGLIGIBLE = 6.3_dp
+  !> Gaussians longer than this many times all distances are the same everywhere to rounding of their sum.
+  real(dp), parameter :: FAR = 1.0e6_dp
+
+  !> What a direction needs: the factors of waves, values at cells of a circle without their mean, or at cells.
+  integer, parameter, public :: WAVES_OF = 1, CIRCLE_OF = 2, PLACES_OF = 3
+
+  type, public :: mixture_sums
+    !> Cells and spacing of both directions, length, and what each of them needs.
+    integer :: cells(2) = 0, kind(2) = PLACES_OF
+    real(dp) :: spacing(2) = 0.0_dp
+    !> The first length is exp(STEP*first).
+    integer :: first = 0
+    !> (0:m, lengths, order): m half of the cells of a circle, otherwise all but one.
+    real(dp), allocatable :: along_x(:, :, :), along_y(:, :, :)
+    real(dp), allocatable, private :: weighted(:, :)
+  contains
+    procedure :: prepare
+    procedure :: add_product
+    procedure :: in_plane
+  end type mixture_sums
+
+contains
+
+  !> Compute the sums for a grid of `cells` (2) with `spacing` (2), length, for lengths from exp(STEP*first) on. `stat`
+  !> as in an allocate statement.
+  subroutine prepare(self, cells, spacing, kind, first, stat)
+    class(mixture_sums), intent(inout) :: self
+    integer, intent(in) :: cells(2), kind(2), first
+    real(dp), intent(in) :: spacing(2)
+    integer, intent(out) :: stat
+    integer :: extent(2), nodes
+
+    self%cells = cells
+    self%spacing = spacing
+    self%kind = kind
+    self%first = first
+    nodes = max(1, ceiling(log(longest_length(cells*spacing, kind))/STEP) - first + 1)
+    extent = merge(cells - 1, cells/2, kind == PLACES_OF)
+    allocate (self%along_x(0:extent(1), nodes, 0:2), self%along_y(0:extent(2), nodes, 0:2), &
+              self%weighted(0:extent(1), nodes), stat=stat)
+    if (stat == 0) call fill(kind(1), cells(1), spacing(1), first, self%along_x, stat)
+    if (stat == 0) call fill(kind(2), cells(2), spacing(2), first, self%along_y, stat)
+  end subroutine prepare
+
+  !> The last length that counts on a grid of this `extent` (2).
+  pure function longest_length(extent, kind) result(length)
+    real(dp), intent(in) :: extent(2)
+    integer, intent(in) :: kind(2)
+    real(dp) :: length
+
+    if (all(kind == WAVES_OF)) then
+      length = NEGLIGIBLE*maxval(extent)/(2.0_dp*PI)
+    else
+      length = FAR*maxval(extent)
+    end if
+  end function longest_length
+
+  subroutine fill(kind, n, spacing, first, along, stat)
+    integer, intent(in) :: kind, n, first
+    real(dp), intent(in) :: spacing
+    real(dp), intent(out) :: along(0:, :, 0:)
+    integer, intent(out) :: stat
+    real(dp), allocatable :: work(:, :)
+    real(dp) :: t
+    integer :: k
+
+    stat = 0
+    if (kind == CIRCLE_OF) allocate (work(0:circle_work(n), 0:2), stat=stat)
+    if (stat /= 0) return
+    do k = 1, size(along, 2)
+      t = exp(STEP*real(first + k - 1, dp))/spacing
+      select case (kind)
+      case (WAVES_OF)
+        call fill_gaussian_waves(n, t, along(:, k, :))
+      case (CIRCLE_OF)
+        call fill_gaussian_circle(n, t, work, along(:, k, :))
+      case default
+        call fill_gaussian_places(t, along(:, k, :))
+      end select
+    end do
+  end subroutine fill
+
+  !> Add to `factor` (0:, 0:) what unit pressure on a cell, or a wave of it, gives of a `function` of the mixture
+  !> times q_x**power(1) q_y**power(2).
+  subroutine add_product(self, mixture, function, power, factor)
+    class(mixture_sums), intent(inout) :: self
+    type(depth_mixture), intent(in) :: mixture
+    integer, intent(in) :: function, power(2)
+    real(dp), intent(inout), contiguous :: factor(:, :)
+    real(dp) :: scaling
+    integer :: k, nodes
+
+    nodes = size(self%along_x, 2)
+    scaling = 1.0_dp/product(self%spacing**power)
+    ! A slope stands for i q, the product of two slopes for -q_x q_y.
+    if (any(self%kind /= WAVES_OF) .and. all(power == 1)) scaling = -scaling
+    do k = 1, nodes
+      self%weighted(:, k) = (scaling*weight_at(self, mixture, function, k))*self%along_x(:, k, power(1))
+    end do
+    call dgemm('N', 'T', size(factor, 1), size(factor, 2), nodes, 1.0_dp, self%weighted, size(factor, 1), &
+               self%along_y(:, :, power(2)), size(factor, 2), 1.0_dp, factor, size(factor, 1))
+  end subroutine add_product
+
+  !> What unit pressure on whole rows of cells gives at the cells across them, or waves of it: of a `function` of the
+  !> mixture, and if `slope` the slope of it. The rows lie across `direction`.
+  function in_plane(self, mixture, function, slope, direction) result(values)
+    class(mixture_sums), intent(in) :: self
+    type(depth_mixture), intent(in) :: mixture
+    integer, intent(in) :: function, direction
+    logical, intent(in) :: slope
+    real(dp), allocatable :: values(:)
+    real(dp) :: weight
+    integer :: k, order
+
+    order = merge(1, 0, slope)
+    allocate (values(size(self%along_x, 1)*(2 - direction) + size(self%along_y, 1)*(direction - 1)), source=0.0_dp)
+    do k = 1, size(self%along_x, 2)
+      weight = weight_at(self, mixture, function, k)/self%spacing(direction)**order
+      if (direction == 1) then
+        values = values + weight*self%along_x(:, k, order)
+      else
+        values = values + weight*self%along_y(:, k, order)
+      end if
+    end do
+  end function in_plane
+
+  !> The weight of length number `k` of the sums, times t**m.
+  pure function weight_at(sums, mixture, function, k) result(weight)
+    type(mixture_sums), intent(in) :: sums
+    type(depth_mixture), intent(in) :: mixture
+    integer, intent(in) :: function, k
+    real(dp) :: weight
+    integer :: number
+
+    number = sums%first + k - 1
+    weight = mixture%weight_of(function, number)*exp(STEP*real(POWERS(function)*number, dp))
+  end function weight_at
+
+end module fuge_mixture_sums
