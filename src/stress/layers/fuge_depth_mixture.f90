@@ -1,4 +1,4 @@
-!> Stresses at a depth of a body of layers as mixtures of Gaussians of the pressure on its surface.
+!> Stresses and displacements at a depth of a body of layers as mixtures of Gaussians of the pressure on its surface.
 !>
 !> What a wave q of pressure gives there, times a power m of q, is the sum over k of w_k (t_k q)**m exp(-(t_k q)**2), of
 !> the lengths t_k = exp(STEP k). In the top layer it is what a half-space of its material does not give, and decays at
@@ -7,9 +7,10 @@
 !> a body that is a half-space for long waves.
 module fuge_depth_mixture
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_constants, only: PI
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgelsy
-  use fuge_layer_interior, only: layer_cut, NN, NZ, TT, ZZ
+  use fuge_layer_interior, only: layer_cut, ALONG, DOWN, NN, NZ, TT, ZZ
   use fuge_status, only: fuge_info, require_memory
   implicit none
   private
@@ -18,9 +19,12 @@ module fuge_depth_mixture
 
   !> Step of the rule in log t.
   real(dp), parameter, public :: STEP = 0.09_dp
-  !> The numbers of Z, X/q, N, tt/p, and (N - tt/p)/q**2, and the powers m of q for each.
-  integer, parameter, public :: OF_ZZ = 1, OF_SLOPE = 2, OF_NN = 3, OF_TT = 4, OF_DIFFERENCE = 5, FUNCTIONS = 5
-  integer, parameter, public :: POWERS(FUNCTIONS) = [0, 0, 0, 0, 2]
+  !> The numbers of Z, X/q, N, tt/p, U/q, (N - tt/p)/q**2 and -V/q**2, and the powers m of q for each.
+  integer, parameter, public :: OF_ZZ = 1, OF_SLOPE = 2, OF_NN = 3, OF_TT = 4, OF_DOWN = 5, OF_DIFFERENCE = 6, &
+    OF_ALONG = 7, FUNCTIONS = 7
+  integer, parameter, public :: POWERS(FUNCTIONS) = [0, 0, 0, 0, 1, 2, 2]
+  !> The first and the last of the functions with m = 0, 1, 2.
+  integer, parameter :: FIRST_OF(0:2) = [1, 5, 6], LAST_OF(0:2) = [4, 5, 7]
   !> The first t is this fraction of the depth from which waves come; from that many times its inverse on, q counts not.
   real(dp), parameter :: FIRST = 1.0_dp/14.0_dp, SHORTEST_WAVE = 40.0_dp
   !> Waves are long from this many times the depth, or the thickness of all layers times the ratio of moduli, on. The
@@ -37,7 +41,8 @@ module fuge_depth_mixture
     !> The weights are those of k = first, first + 1, .. (weights, functions).
     integer :: first = 0
     real(dp), allocatable :: weight(:, :)
-    !> Those of longer t are beyond(1) + beyond(2)*t_last/t + beyond(3)*(t_last/t)**3; (BEYOND, functions).
+    !> Those of longer t are beyond(1) + beyond(2)*r**a + beyond(3)*r**(a + 2), r = t_last/t, with a = 2 if m is 1,
+    !> otherwise 1; (BEYOND, functions).
     real(dp) :: beyond(BEYOND, FUNCTIONS) = 0.0_dp
     !> The largest error at waves between those of the fit, over the largest value of each function.
     real(dp) :: error = 0.0_dp
@@ -51,8 +56,9 @@ contains
   elemental function weight_of(self, function, k) result(weight)
     class(depth_mixture), intent(in) :: self
     integer, intent(in) :: function, k
-    real(dp) :: weight, ratio
-    integer :: count
+    real(dp) :: weight
+    real(dp) :: ratio
+    integer :: a, count
 
     count = size(self%weight, 1)
     weight = 0.0_dp
@@ -61,7 +67,8 @@ contains
       weight = self%weight(k - self%first + 1, function)
     else
       ratio = exp(-STEP*real(k - self%first - count + 1, dp))
-      weight = self%beyond(1, function) + self%beyond(2, function)*ratio + self%beyond(3, function)*ratio**3
+      a = 1 + mod(POWERS(function), 2)
+      weight = self%beyond(1, function) + self%beyond(2, function)*ratio**a + self%beyond(3, function)*ratio**(a + 2)
     end if
   end function weight_of
 
@@ -73,7 +80,7 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: values(:, :), weights(:, :), q(:)
     real(dp) :: longest, ratio, shortest
-    integer :: count, k, rows, stat
+    integer :: count, k, m, rows, stat
 
     ! In the top layer the shortest way is that by the first interface.
     shortest = merge(2.0_dp*cut%thickness_of_top - depth, depth, cut%layer == 1)
@@ -93,8 +100,11 @@ contains
     do k = 1, size(q)
       values(:, k) = functions_of(cut, depth, q(k))
     end do
-    call fit_powers(mixture%first, 0, q(::2), values(:, ::2), weights(:, :OF_TT), stat)
-    if (stat == 0) call fit_powers(mixture%first, 2, q(::2), values(:, ::2), weights(:, OF_DIFFERENCE:), stat)
+    weights(count + 1, OF_DOWN) = STEP*2.0_dp/sqrt(PI)*longest_wave_down(cut)
+    do m = 0, 2
+      if (stat == 0) call fit_powers(mixture%first, m, q(::2), values(FIRST_OF(m):LAST_OF(m), ::2), &
+                                     weights(:, FIRST_OF(m):LAST_OF(m)), stat)
+    end do
     call require_memory(stat, 'stresses in layers, with', count, 'weights', info)
     if (stat /= 0) return
     mixture%weight = weights(:count, :)
@@ -112,8 +122,18 @@ contains
     end associate
   end function length_of_layers
 
-  !> The functions of a wave `q` at the `depth`, times q**m; X/q over the depth of the layers. In the top layer less
-  !> those of a half-space.
+  !> U of the longest waves, in the top layer less that of a half-space.
+  pure function longest_wave_down(cut) result(down)
+    type(layer_cut), intent(in) :: cut
+    real(dp) :: down
+
+    associate (n => size(cut%stack%shear))
+      down = 2.0_dp*(1.0_dp - cut%stack%poisson(n))/cut%stack%shear(n)
+    end associate
+    if (cut%layer == 1) down = down - 2.0_dp*(1.0_dp - cut%poisson)
+  end function longest_wave_down
+
+  !> The functions of a wave `q` at the `depth`, times q**m. In the top layer less those of a half-space.
   pure function functions_of(cut, depth, q) result(values)
     type(layer_cut), intent(in) :: cut
     real(dp), intent(in) :: depth, q
@@ -128,20 +148,24 @@ contains
       response(NZ) = response(NZ) - x*decay
       response(NN) = response(NN) + (1.0_dp - x)*decay
       response(TT) = response(TT) + 2.0_dp*cut%poisson*decay
+      response(ALONG) = response(ALONG) + (1.0_dp - 2.0_dp*cut%poisson - x)*decay
+      response(DOWN) = response(DOWN) - (2.0_dp*(1.0_dp - cut%poisson) + x)*decay
     end if
-    values = [response(ZZ), response(NZ)/q, response(NN), response(TT), response(NN) - response(TT)]
+    values = [response(ZZ), response(NZ)/q, response(NN), response(TT), response(DOWN), response(NN) - response(TT), &
+              -response(ALONG)]
   end function functions_of
 
-  !> Weights of the functions with the power `m`, by least squares. `values` (functions, waves).
+  !> Weights of the functions with the power `m`, by least squares. `values` (functions, waves). With m = 1 the limit of
+  !> the weights is known: it is in `weights` already.
   subroutine fit_powers(first, m, q, values, weights, stat)
     integer, intent(in) :: first, m
     real(dp), intent(in) :: q(:), values(:, :)
-    real(dp), intent(out) :: weights(:, :)
+    real(dp), intent(inout) :: weights(:, :)
     integer, intent(out) :: stat
     real(dp), allocatable :: matrix(:, :), right(:, :), work(:)
-    real(dp) :: size_of_work(1), ratio, x
+    real(dp) :: limit, ratio, size_of_work(1), x
     integer, allocatable :: pivot(:)
-    integer :: count, k, next, rank, rows
+    integer :: a, count, k, next, rank, rows
 
     count = size(weights, 1) - BEYOND
     rows = size(q)
@@ -149,6 +173,10 @@ contains
     if (stat /= 0) return
     pivot = 0
     matrix = 0.0_dp
+    right = transpose(values)
+    a = 1 + mod(m, 2)
+    limit = 0.0_dp
+    if (m == 1) limit = weights(count + 1, 1)
     do k = 1, count
       matrix(:, k) = term(m, q*exp(STEP*real(first + k - 1, dp)))
     end do
@@ -159,12 +187,12 @@ contains
         if (x > NEGLIGIBLE) exit
         ratio = exp(-STEP*real(next, dp))
         ! Without a power of q there is no limit: the sum would be infinite.
-        if (m > 0) matrix(k, count + 1) = matrix(k, count + 1) + term(m, x)
-        matrix(k, count + 2) = matrix(k, count + 2) + ratio*term(m, x)
-        matrix(k, count + 3) = matrix(k, count + 3) + ratio**3*term(m, x)
+        if (m == 2) matrix(k, count + 1) = matrix(k, count + 1) + term(m, x)
+        right(k, :) = right(k, :) - limit*term(m, x)
+        matrix(k, count + 2) = matrix(k, count + 2) + ratio**a*term(m, x)
+        matrix(k, count + 3) = matrix(k, count + 3) + ratio**(a + 2)*term(m, x)
         next = next + 1
       end do
-      right(k, :) = values(merge(OF_ZZ, OF_DIFFERENCE, m == 0):merge(OF_TT, OF_DIFFERENCE, m == 0), k)
     end do
     call dgelsy(rows, count + BEYOND, size(right, 2), matrix, rows, right, rows, pivot, RANK_TOLERANCE, rank, &
                 size_of_work, -1, stat)
@@ -173,6 +201,7 @@ contains
     call dgelsy(rows, count + BEYOND, size(right, 2), matrix, rows, right, rows, pivot, RANK_TOLERANCE, rank, work, &
                 size(work), stat)
     weights = right(:count + BEYOND, :)
+    if (m == 1) weights(count + 1, :) = limit
   end subroutine fit_powers
 
   !> x**m exp(-x**2).
