@@ -15,16 +15,14 @@ static void expect(int true, const char *what, const char *message) {
   printf("rank %d, not as expected: %s: %s\n", rank, what, message);
 }
 
-/* Products of the cells of a rank are those of one process; an error on one rank is one on all of them. */
-static void expect_products(const fuge_operator *op, int first, int rows) {
+/* Products of the cells of a rank are those of one process, `alone`; an error on one rank is one on all of them. */
+static void expect_products(const fuge_operator *op, const fuge_operator *alone, int first, int rows) {
   char message[FUGE_MESSAGE_LENGTH + 1] = "";
   double *force = malloc(sizeof *force * N), *whole = malloc(sizeof *whole * N), *own = malloc(sizeof *own * N);
   double difference = 0, largest = 0;
-  fuge_operator *alone = NULL;
   int i, status;
   for (i = 0; i < N; i++) force[i] = 1 + i % 7;
-  status = fuge_operator_halfplane(N, 1.0 / N, 1.0, FUGE_MEAN, FUGE_FREE, &alone, message, sizeof message);
-  if (status == FUGE_DONE) status = fuge_operator_apply(alone, N, force, whole, message, sizeof message);
+  status = fuge_operator_apply(alone, N, force, whole, message, sizeof message);
   expect(status == FUGE_DONE, "a product of one process", message);
   status = fuge_operator_apply(op, rows, force + (rows > 0 ? first : 0), own, message, sizeof message);
   expect(status == FUGE_DONE, "a product", message);
@@ -36,10 +34,40 @@ static void expect_products(const fuge_operator *op, int first, int rows) {
   if (rank == 0) force[first] = NAN;
   status = fuge_operator_apply(op, rows, force + (rows > 0 ? first : 0), own, message, sizeof message);
   expect(status == FUGE_ERR_NOT_FINITE, "a force that is not finite, on rank 0", message);
-  fuge_operator_free(&alone);
   free(force);
   free(whole);
   free(own);
+}
+
+/* A layered half-plane, and layers that are wrong on one rank, or differ between the ranks. */
+static void expect_layers(void) {
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
+  const double young[3] = {1.0, 5.0, 20.0}, poisson[3] = {0.3, 0.2, 0.4};
+  double thickness[2] = {0.01, 0.05};
+  int first = -1, ranks, rows = -1, status;
+  fuge_operator *op = NULL, *alone = NULL;
+
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (rank == ranks - 1) thickness[1] = -1.0;
+  status = fuge_operator_layered_halfplane_mpi(N, 1.0 / N, 2, thickness, young, poisson, 1, HUGE_VAL, FUGE_MEAN,
+                                               FUGE_FREE, MPI_COMM_WORLD, &op, message, sizeof message);
+  expect(status == FUGE_ERR_WIDTH && !op && strstr(message, "thickness 2"), "a thickness on one rank", message);
+  thickness[1] = rank == ranks - 1 ? 0.04 : 0.05;
+  status = fuge_operator_layered_halfplane_mpi(N, 1.0 / N, 2, thickness, young, poisson, 1, HUGE_VAL, FUGE_MEAN,
+                                               FUGE_FREE, MPI_COMM_WORLD, &op, message, sizeof message);
+  expect(status == (ranks > 1 ? FUGE_ERR_OPTION : FUGE_DONE), "another thickness on one rank", message);
+  fuge_operator_free(&op);
+  thickness[1] = 0.05;
+  status = fuge_operator_layered_halfplane_mpi(N, 1.0 / N, 2, thickness, young, poisson, 1, HUGE_VAL, FUGE_MEAN,
+                                               FUGE_FREE, MPI_COMM_WORLD, &op, message, sizeof message);
+  if (status == FUGE_DONE) status = fuge_operator_rows(op, &first, &rows, message, sizeof message);
+  expect(status == FUGE_DONE && op, "a layered half-plane", message);
+  status = fuge_operator_layered_halfplane(N, 1.0 / N, 2, thickness, young, poisson, 1, HUGE_VAL, FUGE_MEAN, FUGE_FREE,
+                                           &alone, message, sizeof message);
+  expect(status == FUGE_DONE && alone, "a layered half-plane of one process", message);
+  if (op && alone) expect_products(op, alone, first, rows);
+  fuge_operator_free(&op);
+  fuge_operator_free(&alone);
 }
 
 int main(int argc, char **argv) {
@@ -49,7 +77,7 @@ int main(int argc, char **argv) {
   int all, first = -1, i, rows = -1, status;
   fuge_info info;
   fuge_options options;
-  fuge_operator *op = NULL;
+  fuge_operator *op = NULL, *alone = NULL;
   fuge_solver *solver = NULL;
   FILE *file;
 
@@ -84,7 +112,11 @@ int main(int argc, char **argv) {
   status = fuge_mpi_read_rows(path, op, read, message, sizeof message);
   expect(status == FUGE_DONE && memcmp(read, gap, sizeof *gap * (size_t)rows) == 0, "read", message);
 
-  expect_products(op, first, rows);
+  status = fuge_operator_halfplane(N, 1.0 / N, 1.0, FUGE_MEAN, FUGE_FREE, &alone, message, sizeof message);
+  expect(status == FUGE_DONE && alone, "a half-plane of one process", message);
+  if (alone) expect_products(op, alone, first, rows);
+  fuge_operator_free(&alone);
+  expect_layers();
 
   /* Each rank may have threads of its own number. */
   fuge_default_options(&options);

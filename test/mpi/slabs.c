@@ -52,6 +52,36 @@ static void press_tilted(fuge_operator *op, MPI_Comm comm, int nx, int ny, int f
   free(modes);
 }
 
+/* The tilts of a layered half-space are those that one process finds; layers that are wrong on one rank. */
+static void tilt_layered(void) {
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
+  const double young[2] = {1.0, HUGE_VAL}, poisson[2] = {0.3, 0.3};
+  double thickness = 0.1, motion[3] = {0, 0, 0}, expected[3] = {0, 0, 0};
+  int first = 0, k, ranks, rows = 0, status;
+  fuge_operator *op = NULL, *whole = NULL;
+
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (rank == ranks - 1) thickness = 0.0;
+  status = fuge_operator_layered_halfspace_mpi(NX, NY, 1.0 / NX, 1.0 / NX, 1, &thickness, young, poisson, 1, HUGE_VAL,
+                                               FUGE_MEAN, FUGE_FREE, MPI_COMM_WORLD, &op, message, sizeof message);
+  expect(status == FUGE_ERR_WIDTH && !op && strstr(message, "thickness 1"), "a thickness on one rank", message);
+  thickness = 0.1;
+  status = fuge_operator_layered_halfspace_mpi(NX, NY, 1.0 / NX, 1.0 / NX, 1, &thickness, young, poisson, 1, HUGE_VAL,
+                                               FUGE_MEAN, FUGE_FREE, MPI_COMM_WORLD, &op, message, sizeof message);
+  expect(status == FUGE_DONE && op, "layers", message);
+  fuge_operator_rows(op, &first, &rows, message, sizeof message);
+  press_tilted(op, MPI_COMM_WORLD, NX, NY, first, rows, motion, "layers");
+  if (rank == 0) {
+    fuge_operator_layered_halfspace(NX, NY, 1.0 / NX, 1.0 / NX, 1, &thickness, young, poisson, 1, HUGE_VAL, FUGE_MEAN,
+                                    FUGE_FREE, &whole, message, sizeof message);
+    press_tilted(whole, MPI_COMM_SELF, NX, NY, 0, NY, expected, "layers on one process");
+  }
+  MPI_Bcast(expected, 3, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+  for (k = 0; k < 3; k++) expect(fabs(motion[k] - expected[k]) < 1e-8 * fabs(expected[0]), "layers", "motion");
+  fuge_operator_free(&op);
+  fuge_operator_free(&whole);
+}
+
 /* Tilts of grids of which ranks have fewer points than there are modes, or none. */
 static void tilt(int nx, int ny, const char *what) {
   char message[FUGE_MESSAGE_LENGTH + 1] = "";
@@ -193,6 +223,7 @@ int main(int argc, char **argv) {
   expect(status == FUGE_ERR_SIZE && strstr(message, "(131, 150)") != NULL, "another shape", message);
   fuge_operator_free(&op);
 
+  tilt_layered();
   tilt(25, 5, "a tilt, all points on one rank");
   tilt(2, 8193, "a tilt, two points on the last rank with any");
 

@@ -47,6 +47,7 @@ module lone_rank
     procedure :: precondition => precondition_surface
     procedure :: has_preconditioner_on_bed
     procedure :: precondition_on_bed
+    procedure :: wave_slope => surface_slope
     procedure :: grid => surface_grid
     procedure :: free_rim => surface_rim
     procedure :: coarsen => coarsen_surface
@@ -206,6 +207,14 @@ contains
 
     call self%surface%precondition_on_bed(compliance, displacement, force, status)
   end subroutine precondition_on_bed
+
+  function surface_slope(self, levels) result(slope)
+    class(lone_surface), intent(in) :: self
+    integer, intent(in) :: levels
+    real(dp) :: slope
+
+    slope = self%surface%wave_slope(levels)
+  end function surface_slope
 
   function surface_grid(self) result(cells)
     class(lone_surface), intent(in) :: self

@@ -1,11 +1,10 @@
 !> The elastic half-space on a uniform grid of rectangles, by FFT: A of `fuge_halfspace_matrix`, or of a periodic
 !> surface, in O(n log n) operations and O(n) memory.
 module fuge_halfspace_fft
-  use fuge_constants, only: PI
   use fuge_grid_plan, only: grid_plan
   use fuge_grid_operator_type, only: grid_operator
-  use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, computes_later, count_coarser, halfspace_grid, &
-    is_large, least_magnitude, periodic
+  use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, computes_later, count_coarser, &
+    halfspace_grid, is_large, least_magnitude, periodic, slope_of_waves
   use fuge_halfspace_kernels, only: bytes_in_slices, kernel_store, multiply_in_slices
   use fuge_halfspace_spectra, only: bytes_needed
   use fuge_kept_rows, only: drop_rows
@@ -282,13 +281,8 @@ contains
     class(fuge_halfspace_operator), intent(in) :: self
     integer, intent(in) :: levels
     real(dp) :: slope
-    real(dp), parameter :: RATIO = 1.1_dp
-    real(dp) :: q
 
-    slope = 1.0_dp
-    if (.not. self%surface%body%is_set()) return
-    q = 0.25_dp*PI/(sqrt(product(self%surface%spacing))*2.0_dp**levels)
-    slope = 1.0_dp - log(self%surface%body%wave_factor(q)/self%surface%body%wave_factor(RATIO*q))/log(1.0_dp/RATIO)
+    slope = slope_of_waves(self%surface, levels)
   end function wave_slope
 
   !> The inverse on a periodic surface on a bed of the `compliance`, length per force; otherwise as `precondition`.

@@ -1,7 +1,7 @@
 !> A uniform grid of rectangles on an elastic half-space: its numbers, what they may be, and coarser grids.
 module fuge_halfspace_grid
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use fuge_constants, only: LARGEST_EXPONENT_OF_4
+  use fuge_constants, only: PI, LARGEST_EXPONENT_OF_4
   use fuge_grid_plan, only: fast_length
   use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: FUGE_MEAN
@@ -15,7 +15,7 @@ module fuge_halfspace_grid
   private
 
   public :: check_grid, circle_of, coarsened, complete, computes_later, count_coarser, cyclic, is_large, &
-    least_magnitude, periodic
+    least_magnitude, periodic, slope_of_waves
 
   !> `boundary`: the cells repeat periodically along x, and beyond them along y the surface is free.
   integer, parameter, public :: FUGE_PERIODIC_X = 2
@@ -208,6 +208,21 @@ contains
     magnitude = 0.0_dp
     if (grid%boundary /= FUGE_FREE) magnitude = MEAN_TERM*total/(grid%e_star*term_length(grid))
   end function least_magnitude
+
+  !> s, where displacements by waves q fall like q**(-s), at waves of eight of the cells that are 2**`levels` times as
+  !> wide; 1 on a half-space.
+  pure function slope_of_waves(grid, levels) result(slope)
+    type(halfspace_grid), intent(in) :: grid
+    integer, intent(in) :: levels
+    real(dp) :: slope
+    real(dp), parameter :: RATIO = 1.1_dp
+    real(dp) :: q
+
+    slope = 1.0_dp
+    if (.not. grid%body%is_set()) return
+    q = 0.25_dp*PI/(sqrt(product(grid%spacing))*2.0_dp**levels)
+    slope = 1.0_dp - log(grid%body%wave_factor(q)/grid%body%wave_factor(RATIO*q))/log(1.0_dp/RATIO)
+  end function slope_of_waves
 
   !> `length`: the cells of the circles that transforms of rows and columns have; where they are not cyclic twice as
   !> many hold the products. Error: FUGE_ERR_MEMORY if they are too many.

@@ -14,6 +14,8 @@ module fuge_c_layers
   implicit none
   private
 
+  public :: find_layers
+
 contains
 
   !> Thirteen arguments, as in the header: the cells, the layers, the other body, the boundary, the message.

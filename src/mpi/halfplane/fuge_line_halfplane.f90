@@ -13,8 +13,10 @@ module fuge_line_halfplane
   use fuge_operator_type, only: fuge_operator
   use fuge_rank_communicator, only: free_communicator, members_here, rank_communicator, split_communicator
   use fuge_point_space, only: point_space
+  use fuge_shared_body, only: share_body
   use fuge_shared_operator, only: owns, shared_operator
   use fuge_status, only: fuge_info, require_memory, FUGE_DONE
+  use fuge_wave_mixture, only: wave_mixture
   use mpi_f08, only: MPI_Comm
   implicit none
   private
@@ -78,14 +80,14 @@ contains
   !> Set the operator of `n` cells of width `spacing`, side by side, as that of `fuge_halfplane_operator`, on all ranks
   !> of `comm`.
   !>
-  !> `comm` is duplicated. `n`, `spacing`, `e_star`, `element`, `boundary`, `measured` as for `fuge_halfplane_operator`,
-  !> the same on all ranks. A rank has cells one after the other; where there are few the last ranks have none. Of a
-  !> periodic surface a rank has as many cells, or a multiple, as a divisor of n leaves, the one next to the square root
-  !> of n: a prime number of cells is not shared. The arguments are more than eight, because the last three are optional
-  !> and named by the caller.
+  !> `comm` is duplicated. `n`, `spacing`, `e_star`, `element`, `boundary`, `measured`, `body` as for
+  !> `fuge_halfplane_operator`, the same on all ranks. A rank has cells one after the other; where there are few the
+  !> last ranks have none. Of a periodic surface a rank has as many cells, or a multiple, as a divisor of n leaves, the
+  !> one next to the square root of n: a prime number of cells is not shared. The arguments are ten, because the last
+  !> four are optional and named by the caller.
   !> Errors, on all ranks, which leave the operator as it was: those of `fuge_halfplane_operator`, FUGE_ERR_OPTION if
   !> the arguments differ, FUGE_ERR_CALL_ORDER, on this rank, if MPI is not running.
-  subroutine set(self, n, spacing, e_star, comm, info, element, boundary, measured)
+  subroutine set(self, n, spacing, e_star, comm, info, element, boundary, measured, body)
     class(fuge_mpi_halfplane_operator), intent(inout) :: self
     integer, intent(in) :: n
     real(dp), intent(in) :: spacing, e_star
@@ -93,6 +95,7 @@ contains
     type(fuge_info), intent(out) :: info
     integer, intent(in), optional :: element, boundary
     logical, intent(in), optional :: measured
+    type(wave_mixture), intent(in), optional :: body
     type(fuge_mpi_halfplane_operator) :: new
 
     call new%join(comm, info)
@@ -103,10 +106,12 @@ contains
     if (present(element)) new%line%element = element
     if (present(boundary)) new%line%boundary = boundary
     if (present(measured)) new%measured = measured
+    if (present(body)) new%line%body = body
     call check_line(new%line, info)
     call new%check_same([real(n, dp), spacing, e_star, &
                          real([new%line%element, new%line%boundary, merge(1, 0, new%measured)], dp)], &
                         'n, spacing, e_star', info)
+    if (.not. info%failed()) call share_body(new%group, new%line%body, info)
     if (.not. info%failed()) call prepare(new, info)
     if (.not. info%failed()) call move_contents(self, new)
   end subroutine set
@@ -232,7 +237,8 @@ contains
 
     if (source%line%cells > 0) then
       call new%set(source%line%cells, source%line%spacing, source%line%e_star, source%comm(), info, &
-                   element=source%line%element, boundary=source%line%boundary, measured=source%measured)
+                   element=source%line%element, boundary=source%line%boundary, measured=source%measured, &
+                   body=source%line%body)
     end if
     call move_contents(self, new)
   end subroutine copy

@@ -11,10 +11,10 @@
 !> and only the real part is kept.
 module fuge_line_transform
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_loc, c_null_ptr, c_ptr
+  use fuge_complex_lines, only: gather_lines, multiply_exchanging, multiply_line, scale_line, scatter_lines
   use fuge_fft, only: allocate_values, fft_plan, release_buffer
   use fuge_kinds, only: dp
   use fuge_line_cells, only: block_begins, rows_of_circle, rows_of_ranks
-  use fuge_line_numbers, only: gather_lines, multiply_exchanging, multiply_line, scale_line, scatter_lines
   use fuge_rank_communicator, only: rank_communicator
   use fuge_status, only: fuge_info, require_memory
   use fuge_unit_roots, only: quarter_root, root_of_one

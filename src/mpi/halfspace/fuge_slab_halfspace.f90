@@ -3,15 +3,17 @@ module fuge_slab_halfspace
   use, intrinsic :: iso_c_binding, only: c_loc, c_null_ptr, c_ptr
   use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_grid, only: check_grid, coarsened, complete, count_coarser, halfspace_grid, least_magnitude, &
-    periodic
+    periodic, slope_of_waves
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
+  use fuge_shared_body, only: share_body
   use fuge_shared_operator, only: owns, shared_operator
   use fuge_slab_products, only: prepare_products, slab_products
   use fuge_slab_rows, only: rows_of_ranks => first_rows
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED
+  use fuge_wave_mixture, only: wave_mixture
   use mpi_f08, only: MPI_Comm
   implicit none
   private
@@ -40,6 +42,7 @@ module fuge_slab_halfspace
     procedure :: precondition
     procedure :: has_preconditioner_on_bed
     procedure :: precondition_on_bed
+    procedure :: wave_slope
     procedure :: grid
     procedure :: coarsen
     procedure :: free_rim
@@ -55,14 +58,14 @@ contains
   !> Set the operator of `nx` x `ny` cells, as that of `fuge_halfspace_operator`, on all ranks of `comm`: point
   !> i + nx*(j - 1) of a rank is the cell in column i of its row j.
   !>
-  !> `comm` is duplicated. `nx`, `ny`, `spacing_x`, `spacing_y`, `e_star`, `element`, `measured` as for
+  !> `comm` is duplicated. `nx`, `ny`, `spacing_x`, `spacing_y`, `e_star`, `element`, `measured`, `body` as for
   !> `fuge_halfspace_operator`, the same on all ranks; `boundary` FUGE_FREE (default) or FUGE_PERIODIC. A rank has pairs
   !> of rows, one after the other; where there are few cells the last ranks have none.
-  !> The arguments are more than eight, because the last three are optional and named by the caller.
+  !> The arguments are eleven, because the last four are optional and named by the caller.
   !> Errors, on all ranks, which leave the operator as it was: those of `fuge_halfspace_operator`, FUGE_ERR_OPTION if
   !> the arguments differ, FUGE_ERR_UNSUPPORTED for another boundary, FUGE_ERR_CALL_ORDER, on this rank, if MPI is not
   !> running.
-  subroutine set(self, nx, ny, spacing_x, spacing_y, e_star, comm, info, element, boundary, measured)
+  subroutine set(self, nx, ny, spacing_x, spacing_y, e_star, comm, info, element, boundary, measured, body)
     class(fuge_mpi_halfspace_operator), intent(inout) :: self
     integer, intent(in) :: nx, ny
     real(dp), intent(in) :: spacing_x, spacing_y, e_star
@@ -70,6 +73,7 @@ contains
     type(fuge_info), intent(out) :: info
     integer, intent(in), optional :: element, boundary
     logical, intent(in), optional :: measured
+    type(wave_mixture), intent(in), optional :: body
     type(fuge_mpi_halfspace_operator) :: new
 
     call new%join(comm, info)
@@ -80,6 +84,7 @@ contains
     if (present(element)) new%surface%element = element
     if (present(boundary)) new%surface%boundary = boundary
     if (present(measured)) new%measured = measured
+    if (present(body)) new%surface%body = body
     call check_grid(new%surface, info)
     if (.not. info%failed() .and. all(new%surface%boundary /= [FUGE_FREE, FUGE_PERIODIC])) then
       call report(info, FUGE_ERR_UNSUPPORTED, 'boundary = '//text(new%surface%boundary) &
@@ -88,6 +93,7 @@ contains
     call new%check_same([real(new%surface%cells, dp), new%surface%spacing, new%surface%e_star, &
                          real([new%surface%element, new%surface%boundary, merge(1, 0, new%measured)], dp)], &
                         'nx, ny, spacings, e_star', info)
+    if (.not. info%failed()) call share_body(new%group, new%surface%body, info)
     if (.not. info%failed()) then
       call complete(new%surface)
       call prepare(new, info)
@@ -161,7 +167,8 @@ contains
     if (all(source%surface%cells > 0)) then
       call new%set(source%surface%cells(1), source%surface%cells(2), source%surface%spacing(1), &
                    source%surface%spacing(2), source%surface%e_star, source%comm(), info, &
-                   element=source%surface%element, boundary=source%surface%boundary, measured=source%measured)
+                   element=source%surface%element, boundary=source%surface%boundary, measured=source%measured, &
+                   body=source%surface%body)
     end if
     call move_contents(self, new)
   end subroutine copy
@@ -251,6 +258,15 @@ contains
     call self%check_sizes(size(displacement), size(force), status)
     if (status == FUGE_DONE) call self%products%precondition_on_bed(compliance, displacement, force, status)
   end subroutine precondition_on_bed
+
+  !> As that of `fuge_halfspace_operator`.
+  function wave_slope(self, levels) result(slope)
+    class(fuge_mpi_halfspace_operator), intent(in) :: self
+    integer, intent(in) :: levels
+    real(dp) :: slope
+
+    slope = slope_of_waves(self%surface, levels)
+  end function wave_slope
 
   !> [nx, ny] of the whole grid.
   function grid(self) result(cells)

@@ -43,6 +43,20 @@ int fuge_operator_halfspace_mpi(int nx, int ny, double spacing_x, double spacing
 int fuge_operator_halfplane_mpi(int n, double spacing, double e_star, int element, int boundary, MPI_Comm comm,
                                 fuge_operator **op, char *message, size_t len);
 
+/* Layered bodies, as of fuge_operator_layered_halfspace and fuge_operator_layered_halfplane;
+ * the arguments that follow the layers are those of fuge_operator_halfspace_mpi and fuge_operator_halfplane_mpi.
+ * Errors are those of both, on all ranks, also where only one rank has wrong layers; FUGE_ERR_OPTION if the layers
+ * differ between the ranks. */
+int fuge_operator_layered_halfspace_mpi(int nx, int ny, double spacing_x, double spacing_y, int layers,
+                                        const double *thickness, const double *young, const double *poisson,
+                                        int bonded, double e_star_other, int element, int boundary, MPI_Comm comm,
+                                        fuge_operator **op, char *message, size_t len);
+
+int fuge_operator_layered_halfplane_mpi(int n, double spacing, int layers, const double *thickness,
+                                        const double *young, const double *poisson, int bonded, double e_star_other,
+                                        int element, int boundary, MPI_Comm comm, fuge_operator **op, char *message,
+                                        size_t len);
+
 /* The rows of this rank: first, from 0, and their number, 0 where there are fewer rows than ranks.  Its points are
  * nx*rows; point i + nx*j is the cell i of row first + j.  The rows of a half-plane are its cells, nx = 1.
  * FUGE_ERR_UNSUPPORTED for an operator of fuge.h. */

@@ -1,5 +1,5 @@
 !> Lines of complex numbers, real and imaginary parts in turn: products, and copies from and to tables.
-module fuge_line_numbers
+module fuge_complex_lines
   use, intrinsic :: iso_c_binding, only: c_double
   use fuge_kinds, only: dp
   implicit none
@@ -83,4 +83,4 @@ contains
     end do
   end subroutine scatter_lines
 
-end module fuge_line_numbers
+end module fuge_complex_lines
