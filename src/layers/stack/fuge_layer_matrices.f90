@@ -166,8 +166,8 @@ contains
     compliance = layer%compliance + transmitted(layer%transmission, free)
   end function slide_on
 
-  !> From the `traction` at the top of a layer, [x, z], to that and the `displacement` at its bottom, bonded to a body of
-  !> the compliance `below`.
+  !> From the `traction` at the top of a layer, [x, z], to that and the `displacement` at its bottom, bonded to a body
+  !> of the compliance `below`.
   pure subroutine carried_down(layer, below, displacement, traction)
     type(layer_matrices), intent(in) :: layer
     real(dp), intent(in) :: below(3)

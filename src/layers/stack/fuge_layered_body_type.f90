@@ -38,6 +38,7 @@ module fuge_layered_body_type
     procedure :: layers
     procedure :: has_layers
     procedure :: poisson => poisson_of_top
+    procedure :: young => young_of_top
     procedure :: is_set
   end type fuge_layered_body
 
@@ -297,6 +298,14 @@ contains
 
     poisson = self%first%poisson(1)
   end function poisson_of_top
+
+  !> Young's modulus of the top layer, of a body that is set.
+  pure function young_of_top(self) result(young)
+    class(fuge_layered_body), intent(in) :: self
+    real(dp) :: young
+
+    young = self%modulus/self%share(1)*(1.0_dp - self%poisson()**2)
+  end function young_of_top
 
   !> T of a wave `q` > 0, 1/length: pressure displaces the surface by 2 T/(e_star q) times itself.
   elemental function factor_of_wave(self, q) result(factor)

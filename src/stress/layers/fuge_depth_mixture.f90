@@ -15,7 +15,7 @@ module fuge_depth_mixture
   implicit none
   private
 
-  public :: fit_at_depth, uniform_stress
+  public :: fit_at_depth, uniform_stress, yield_below
 
   !> Step of the rule in log t.
   real(dp), parameter, public :: STEP = 0.09_dp
@@ -30,6 +30,8 @@ module fuge_depth_mixture
   !> Waves are long from this many times the depth, or the thickness of all layers times the ratio of moduli, on. The
   !> longest one has this q times the longest t.
   real(dp), parameter :: LONG = 1.0e3_dp, LONGEST_WAVE = 0.03_dp
+  !> q of a wave that is as good as infinitely long, times the length of the layers.
+  real(dp), parameter :: LONGEST = 1.0e-7_dp
   !> Waves for each weight, and unknowns that stand for all longer t.
   integer, parameter :: WAVES = 3, BEYOND = 3
   !> Singular values below this fraction of the largest one are rounding.
@@ -79,20 +81,20 @@ contains
     type(depth_mixture), intent(out) :: mixture
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: values(:, :), weights(:, :), q(:)
-    real(dp) :: longest, ratio, shortest
+    real(dp) :: last, ratio, shortest
     integer :: count, k, m, rows, stat
 
     ! In the top layer the shortest way is that by the first interface.
     shortest = merge(2.0_dp*cut%thickness_of_top - depth, depth, cut%layer == 1)
-    longest = LONG*max(depth, length_of_layers(cut))
+    last = LONG*max(depth, length_of_layers(cut))
     mixture%first = floor(log(FIRST*shortest)/STEP)
-    count = ceiling(log(longest)/STEP) - mixture%first + 1
+    count = ceiling(log(last)/STEP) - mixture%first + 1
     rows = WAVES*count
     allocate (mixture%weight(count, FUNCTIONS), q(2*rows), values(FUNCTIONS, 2*rows), weights(count + BEYOND, &
                                                                                               FUNCTIONS), stat=stat)
     call require_memory(stat, 'stresses in layers, with', count, 'weights', info)
     if (stat /= 0) return
-    q(1) = LONGEST_WAVE/longest
+    q(1) = LONGEST_WAVE/last
     ratio = (SHORTEST_WAVE/shortest/q(1))**(1.0_dp/real(2*rows - 1, dp))
     do k = 2, size(q)
       q(k) = q(1)*ratio**(k - 1)
@@ -253,5 +255,18 @@ contains
     if (.not. plane_strain) strain = strain*(1.0_dp + cut%poisson)/(1.0_dp + cut%stack%poisson(n))
     stress = [(cut%shear*strain - cut%poisson)/(1.0_dp - cut%poisson), -1.0_dp]
   end function uniform_stress
+
+  !> How far equal pressure everywhere moves the cut down, over the pressure over twice the shear modulus of the top
+  !> layer: on a rigid base as far as the longest waves; otherwise displacements count from the mean.
+  pure function yield_below(cut) result(yield)
+    type(layer_cut), intent(in) :: cut
+    real(dp) :: yield
+    real(dp) :: response(6)
+
+    yield = 0.0_dp
+    if (.not. cut%stack%is_rigid()) return
+    response = cut%response(LONGEST/length_of_layers(cut))
+    yield = response(DOWN)*length_of_layers(cut)/LONGEST
+  end function yield_below
 
 end module fuge_depth_mixture

@@ -41,8 +41,8 @@ contains
       if (present(below)) lower = below(k)
       cut(k) = cut_at(stack, depth(k), lower)
       if (.not. cut(k)%shear > huge(1.0_dp)) cycle
-      call report(info, FUGE_ERR_GRID, 'depth '//text(k)//' = '//text(depth(k))//' is in the rigid base: the layers are ' &
-                  //text(sum(stack%thickness))//' thick')
+      call report(info, FUGE_ERR_GRID, 'depth '//text(k)//' = '//text(depth(k)) &
+                  //' is in the rigid base: the layers are '//text(sum(stack%thickness))//' thick')
     end do
   end subroutine cut_body
 

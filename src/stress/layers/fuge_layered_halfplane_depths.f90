@@ -1,26 +1,30 @@
-!> Stresses in a body of layers, in plane strain, at depths below the centres of a grid of cells, by FFT; as
-!> fuge_layered_halfspace_depths.
+!> Stresses and displacements in a body of layers, in plane strain, at depths below the centres of a grid of cells, by
+!> FFT; as fuge_layered_halfspace_depths.
 module fuge_layered_halfplane_depths
-  use fuge_depth_mixture, only: depth_mixture, fit_at_depth, uniform_stress, OF_NN, OF_SLOPE, OF_ZZ
+  use fuge_depth_mixture, only: depth_mixture, fit_at_depth, uniform_stress, yield_below, OF_ALONG, OF_DOWN, OF_NN, &
+    OF_SLOPE, OF_ZZ
+  use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
   use fuge_grid_waves, only: grid_waves
-  use fuge_halfplane_depths, only: fuge_halfplane_stress_grid
+  use fuge_halfplane_depths, only: fuge_halfplane_displacement_grid, fuge_halfplane_stress_grid
   use fuge_halfplane_fft, only: FUGE_PERIODIC
   use fuge_halfplane_grid_checks, only: check_halfplane_grid
   use fuge_halfplane_influence, only: FUGE_HAT
+  use fuge_halfspace_depths, only: convolve_tables
   use fuge_kinds, only: dp
   use fuge_layer_checks, only: cut_body
   use fuge_layer_interior, only: layer_cut
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_mixture_sums, only: mixture_sums, PLACES_OF, WAVES_OF
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ELEMENT
+  use fuge_stress_grid_checks, only: check_grid_strain
   implicit none
   private
 
-  public :: fuge_layered_halfplane_stress_grid
+  public :: fuge_layered_halfplane_displacement_grid, fuge_layered_halfplane_stress_grid
 
-  !> Functions of the components xx, zz, xz; the last one is odd.
-  integer, parameter :: FUNCTION_OF(3) = [OF_NN, OF_ZZ, OF_SLOPE]
-  logical, parameter :: IS_ODD(3) = [.false., .false., .true.]
+  !> Functions of the components: xx, zz, xz, and the displacements along x and z. Which of them are odd?
+  integer, parameter :: FUNCTION_OF(5) = [OF_NN, OF_ZZ, OF_SLOPE, OF_ALONG, OF_DOWN]
+  logical, parameter :: IS_ODD(5) = [.false., .false., .true., .true., .false.]
 
   !> Data of all depths.
   type :: grid_work
@@ -29,7 +33,7 @@ module fuge_layered_halfplane_depths
     type(mixture_sums) :: sums
     type(layer_cut), allocatable :: cut(:)
     type(depth_mixture), allocatable :: mixture(:)
-    !> Factors of waves; what a half-plane gives, (3, n, 1).
+    !> Factors of waves; what a half-plane gives, (components, n, 1).
     real(dp), allocatable :: factor(:, :), plain(:, :, :)
   end type grid_work
 
@@ -65,10 +69,7 @@ contains
       call fuge_halfplane_stress_grid(spacing, force, element, boundary, depth, stress, info)
       return
     end if
-    if (element == FUGE_HAT) call report(info, FUGE_ERR_ELEMENT, 'element FUGE_HAT: in layers the pressure is constant ' &
-                                         //'on each cell: use FUGE_MEAN, whose influence is the same')
-    work%periodic = boundary == FUGE_PERIODIC
-    call start(work, spacing, force, depth, info)
+    call start(work, spacing, force, element, boundary, depth, 3, info)
     do k = 1, size(depth)
       if (info%failed()) exit
       if (work%cut(k)%layer == 1) then
@@ -77,60 +78,133 @@ contains
       else
         work%plain = 0.0_dp
       end if
-      call find_stress(work, work%mixture(k), stress(:, :, k))
+      call find_field(work, work%mixture(k), [1, 2, 3], stress(:, :, k))
       stress(:, :, k) = stress(:, :, k)/spacing + work%plain(:, :, 1)
       if (work%periodic) call add_mean(work%cut(k), sum(force)/(spacing*size(force)), stress(:, :, k))
     end do
     call work%waves%free()
   end subroutine fuge_layered_halfplane_stress_grid
 
+  !> Displacements in a body of layers in plane strain, below the centres of equal cells side by side, in O(n log n)
+  !> operations for each depth.
+  !>
+  !> `body`, `element`, `depth` and `below` as for `fuge_layered_halfplane_stress_grid`; others as for
+  !> `fuge_halfplane_displacement_grid`, without the moduli. Where layers slide x differs above and below the interface.
+  !> On a free surface the datum is that of `fuge_halfplane_operator` with this body. With FUGE_PERIODIC displacements
+  !> count from the mean at each depth, but on a rigid base from the base: the mean is the compression of the layers in
+  !> between, which do not expand along x.
+  !>
+  !> Nine arguments: those of the cells and of the body. Errors, displacement untouched: as for
+  !> `fuge_layered_halfplane_stress_grid`. Source: as there.
+  subroutine fuge_layered_halfplane_displacement_grid(body, spacing, force, element, boundary, depth, displacement, &
+                                                      info, below)
+    type(fuge_layered_body), intent(in) :: body
+    real(dp), intent(in) :: spacing, force(:), depth(:)
+    integer, intent(in) :: element, boundary
+    real(dp), intent(inout) :: displacement(:, :, :)
+    type(fuge_info), intent(out) :: info
+    logical, intent(in), optional :: below(:)
+    type(grid_work) :: work
+    real(dp) :: compliance
+    integer :: k
+
+    call check_halfplane_grid(spacing, force, element, boundary, depth, shape(displacement), 'displacement', 2, info)
+    call cut_body(body, depth, work%cut, info, below)
+    if (info%failed()) return
+    call check_grid_strain(force, spacing, body%young(), info)
+    if (info%failed()) return
+    if (.not. body%has_layers()) then
+      call fuge_halfplane_displacement_grid(spacing, force, element, boundary, body%young(), body%poisson(), &
+                                            FUGE_PLANE_STRAIN, depth, displacement, info)
+      return
+    end if
+    call start(work, spacing, force, element, boundary, depth, 2, info)
+    ! 1/(2 G) of the top layer.
+    compliance = (1.0_dp + body%poisson())/body%young()
+    do k = 1, size(depth)
+      if (info%failed()) exit
+      if (work%cut(k)%layer == 1) then
+        call fuge_halfplane_displacement_grid(spacing, force, element, boundary, body%young(), body%poisson(), &
+                                              FUGE_PLANE_STRAIN, depth(k:k), work%plain, info)
+        if (info%failed()) exit
+      else
+        work%plain = 0.0_dp
+      end if
+      call find_field(work, work%mixture(k), [5, 4], displacement(2:1:-1, :, k))
+      displacement(:, :, k) = displacement(:, :, k)*(compliance/spacing) + work%plain(:, :, 1)
+      if (work%periodic) displacement(2, :, k) = displacement(2, :, k) &
+        + sum(force)/(spacing*size(force))*compliance*yield_below(work%cut(k))
+    end do
+    call work%waves%free()
+  end subroutine fuge_layered_halfplane_displacement_grid
+
   !> Fit the mixtures, compute the sums and transform the forces. FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED.
-  subroutine start(work, spacing, force, depth, info)
+  subroutine start(work, spacing, force, element, boundary, depth, components, info)
     type(grid_work), intent(inout) :: work
     real(dp), intent(in) :: spacing, force(:), depth(:)
+    integer, intent(in) :: element, boundary, components
     type(fuge_info), intent(inout) :: info
     integer :: k, n, stat
 
+    if (element == FUGE_HAT) call report(info, FUGE_ERR_ELEMENT, 'element FUGE_HAT: in layers the pressure is ' &
+                                         //'constant on each cell: use FUGE_MEAN, whose influence is the same')
     if (info%failed() .or. size(depth) < 1) return
+    work%periodic = boundary == FUGE_PERIODIC
     n = size(force)
-    allocate (work%mixture(size(depth)), work%plain(3, n, 1), work%factor(0:n/2, 0:0), stat=stat)
-    call require_memory(stat, 'stresses at', n, 'cells', info)
+    allocate (work%mixture(size(depth)), work%plain(components, n, 1), work%factor(0:n/2, 0:0), stat=stat)
+    call require_memory(stat, 'results at', n, 'cells', info)
     do k = 1, size(depth)
       if (.not. info%failed()) call fit_at_depth(work%cut(k), depth(k), work%mixture(k), info)
     end do
     if (info%failed()) return
     call work%sums%prepare([n, 1], [spacing, spacing], [merge(WAVES_OF, PLACES_OF, work%periodic), WAVES_OF], &
                            minval(work%mixture%first), stat)
-    call require_memory(stat, 'stresses at', n, 'cells', info)
+    call require_memory(stat, 'results at', n, 'cells', info)
     if (.not. info%failed()) call work%waves%set([n, 1], [work%periodic, .true.], .not. work%periodic, info)
     if (.not. info%failed()) call work%waves%transform(force)
   end subroutine start
 
-  !> `stress` (3, n) of the mixture, times the width of a cell.
-  subroutine find_stress(work, mixture, stress)
+  !> `field` (components, n): those of the mixture with the numbers `component`, an odd one last, times the width of a
+  !> cell.
+  subroutine find_field(work, mixture, component, field)
     type(grid_work), intent(inout) :: work
     type(depth_mixture), intent(in) :: mixture
-    real(dp), intent(inout) :: stress(:, :)
+    integer, intent(in) :: component(:)
+    real(dp), intent(inout) :: field(:, :)
+    logical :: odd
     integer :: c
 
-    if (.not. work%periodic) call work%waves%clear_kernels()
-    do c = 1, 3
+    do c = 1, size(component)
+      odd = IS_ODD(component(c))
+      field(c, :) = 0.0_dp
       if (work%periodic) then
-        work%factor(:, 0) = work%sums%in_plane(mixture, FUNCTION_OF(c), IS_ODD(c), 1)
+        work%factor(:, 0) = work%sums%in_plane(mixture, FUNCTION_OF(component(c)), odd, 1)
         work%factor(0, 0) = 0.0_dp
-        call work%waves%multiply([IS_ODD(c), .false.], work%factor, stress(c, :))
+        call work%waves%multiply([odd, .false.], work%factor, field(c, :))
       else
-        ! An even kernel and an odd one are transformed together.
-        if (c == 2) call work%waves%clear_kernels()
-        stress(c, :) = work%sums%in_plane(mixture, FUNCTION_OF(c), IS_ODD(c), 1)
-        call work%waves%add_kernel([IS_ODD(c), .false.], stress(c, :))
-        if (c == 2) cycle
-        call work%waves%transform_kernels()
-        if (c == 3) call work%waves%convolve([.false., .false.], stress(2, :))
-        call work%waves%convolve([IS_ODD(c), .false.], stress(c, :))
+        field(c, :) = influence(work%sums, mixture, component(c))
       end if
     end do
-  end subroutine find_stress
+    if (.not. work%periodic) call convolve_tables(work%waves, reshape([(IS_ODD(component(c)), .false., &
+                                                                        c=1, size(component))], &
+                                                                      [2, size(component)]), field)
+  end subroutine find_field
+
+  !> Component number `c` under unit pressure on a cell of a free surface, at the distances of 0, 1, .. cells.
+  function influence(sums, mixture, c) result(values)
+    type(mixture_sums), intent(in) :: sums
+    type(depth_mixture), intent(in) :: mixture
+    integer, intent(in) :: c
+    real(dp), allocatable :: values(:)
+    integer :: k
+
+    values = sums%in_plane(mixture, FUNCTION_OF(c), IS_ODD(c), 1)
+    if (FUNCTION_OF(c) == OF_ALONG) then
+      values = values + sums%line_slope(mixture, 1)*[(k*sums%spacing(1), k=0, size(values) - 1)]
+    else if (FUNCTION_OF(c) == OF_DOWN) then
+      values = values + sums%line_datum(mixture, 1, 2.0_dp*size(values)*sums%spacing(1))
+    end if
+  end function influence
 
   !> What the mean pressure adds on a periodic surface; zz of a half-plane is there already.
   subroutine add_mean(cut, pressure, stress)

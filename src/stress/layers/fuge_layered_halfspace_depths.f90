@@ -1,14 +1,15 @@
-!> Stresses in a body of layers at depths below the centres of a grid of rectangles, by FFT.
+!> Stresses and displacements in a body of layers at depths below the centres of a grid of rectangles, by FFT.
 !>
 !> In the top layer they are those of a half-space of its material (fuge_halfspace_depths) and what the layers below
 !> change; deeper all of it is a mixture of Gaussians (fuge_depth_mixture), which make products of sums along both
 !> directions, of places or of waves.
 module fuge_layered_halfspace_depths
-  use fuge_depth_mixture, only: depth_mixture, fit_at_depth, uniform_stress, OF_DIFFERENCE, OF_NN, OF_SLOPE, OF_TT, &
-    OF_ZZ
+  use fuge_depth_mixture, only: depth_mixture, fit_at_depth, uniform_stress, yield_below, OF_ALONG, OF_DIFFERENCE, &
+    OF_DOWN, OF_NN, OF_SLOPE, OF_TT, OF_ZZ
   use fuge_grid_waves, only: grid_waves
   use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
-  use fuge_halfspace_depths, only: check_stress_grid, convolve_tables, fuge_halfspace_stress_grid, STRESS_KINDS
+  use fuge_halfspace_depths, only: check_stress_grid, convolve_tables, fuge_halfspace_displacement_grid, &
+    fuge_halfspace_stress_grid, DISPLACEMENT_KINDS, STRESS_KINDS
   use fuge_halfspace_grid, only: halfspace_grid, periodic, FUGE_PERIODIC_X
   use fuge_kinds, only: dp
   use fuge_layer_checks, only: cut_body
@@ -16,10 +17,14 @@ module fuge_layered_halfspace_depths
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_mixture_sums, only: mixture_sums, CIRCLE_OF, PLACES_OF, WAVES_OF
   use fuge_status, only: fuge_info, require_memory
+  use fuge_stress_grid_checks, only: check_grid_strain
   implicit none
   private
 
-  public :: fuge_layered_halfspace_stress_grid
+  public :: fuge_layered_halfspace_displacement_grid, fuge_layered_halfspace_stress_grid
+
+  !> Components: the six of the stress, and the displacements along x, y and z.
+  logical, parameter :: KINDS(2, 9) = reshape([STRESS_KINDS, DISPLACEMENT_KINDS], [2, 9])
 
   !> Data of all depths.
   type :: grid_work
@@ -28,7 +33,7 @@ module fuge_layered_halfspace_depths
     type(mixture_sums) :: sums
     type(layer_cut), allocatable :: cut(:)
     type(depth_mixture), allocatable :: mixture(:)
-    !> Factors of waves or influence at places; what a half-space gives, (6, nx*ny, 1).
+    !> Factors of waves or influence at places; what a half-space gives, (components, nx*ny, 1).
     real(dp), allocatable :: factor(:, :), plain(:, :, :)
   end type grid_work
 
@@ -57,17 +62,15 @@ contains
     type(grid_work) :: work
     integer :: k
 
-    work%grid%cells = [nx, ny]
-    work%grid%spacing = [spacing_x, spacing_y]
-    work%grid%boundary = boundary
-    work%grid%e_star = 1.0_dp
+    call describe(nx, ny, spacing_x, spacing_y, boundary, work)
     call check_stress_grid(work%grid, force, depth, shape(stress), 'stress', 6, info)
     call cut_body(body, depth, work%cut, info, below)
     if (.not. info%failed() .and. .not. body%has_layers()) then
-      call fuge_halfspace_stress_grid(nx, ny, spacing_x, spacing_y, force, boundary, body%poisson(), depth, stress, info)
+      call fuge_halfspace_stress_grid(nx, ny, spacing_x, spacing_y, force, boundary, body%poisson(), depth, stress, &
+                                      info)
       return
     end if
-    call start(work, force, depth, info)
+    call start(work, force, depth, 6, info)
     do k = 1, size(depth)
       if (info%failed()) exit
       if (work%cut(k)%layer == 1) then
@@ -77,7 +80,7 @@ contains
       else
         work%plain = 0.0_dp
       end if
-      call find_stress(work, work%mixture(k), stress(:, :, k))
+      call find_field(work, work%mixture(k), 0, stress(:, :, k))
       stress(:, :, k) = stress(:, :, k)/(spacing_x*spacing_y) + work%plain(:, :, 1)
       if (boundary == FUGE_PERIODIC) call add_mean(work%cut(k), sum(force)/(spacing_x*spacing_y*size(force)), &
                                                    stress(:, :, k))
@@ -85,16 +88,81 @@ contains
     call work%waves%free()
   end subroutine fuge_layered_halfspace_stress_grid
 
+  !> Displacements in a body of layers below the centres of a grid of equal rectangles, in O(n log n) operations for
+  !> each depth.
+  !>
+  !> `body`, `depth` and `below` as for `fuge_layered_halfspace_stress_grid`; others as for
+  !> `fuge_halfspace_displacement_grid`, without the moduli. Where layers slide x and y differ above and below the
+  !> interface. With FUGE_PERIODIC displacements count from the mean at each depth, but on a rigid base from the base:
+  !> the mean is the compression of the layers in between, which do not expand along the surface. With one periodic
+  !> direction the datum is that of `fuge_halfspace_operator` with this body.
+  !>
+  !> Eleven arguments: those of the grid and of the body. Errors, displacement untouched: as for
+  !> `fuge_layered_halfspace_stress_grid`. Source: as there.
+  subroutine fuge_layered_halfspace_displacement_grid(body, nx, ny, spacing_x, spacing_y, force, boundary, depth, &
+                                                      displacement, info, below)
+    type(fuge_layered_body), intent(in) :: body
+    integer, intent(in) :: nx, ny, boundary
+    real(dp), intent(in) :: spacing_x, spacing_y, force(:), depth(:)
+    real(dp), intent(inout) :: displacement(:, :, :)
+    type(fuge_info), intent(out) :: info
+    logical, intent(in), optional :: below(:)
+    type(grid_work) :: work
+    real(dp) :: compliance
+    integer :: k
+
+    call describe(nx, ny, spacing_x, spacing_y, boundary, work)
+    call check_stress_grid(work%grid, force, depth, shape(displacement), 'displacement', 3, info)
+    call cut_body(body, depth, work%cut, info, below)
+    if (info%failed()) return
+    call check_grid_strain(force, product(work%grid%spacing), body%young(), info)
+    if (.not. info%failed() .and. .not. body%has_layers()) then
+      call fuge_halfspace_displacement_grid(nx, ny, spacing_x, spacing_y, force, boundary, body%young(), &
+                                            body%poisson(), depth, displacement, info)
+      return
+    end if
+    call start(work, force, depth, 3, info)
+    ! 1/(2 G) of the top layer.
+    compliance = (1.0_dp + body%poisson())/body%young()
+    do k = 1, size(depth)
+      if (info%failed()) exit
+      if (work%cut(k)%layer == 1) then
+        call fuge_halfspace_displacement_grid(nx, ny, spacing_x, spacing_y, force, boundary, body%young(), &
+                                              body%poisson(), depth(k:k), work%plain, info)
+        if (info%failed()) exit
+      else
+        work%plain = 0.0_dp
+      end if
+      call find_field(work, work%mixture(k), 6, displacement(:, :, k))
+      displacement(:, :, k) = displacement(:, :, k)*(compliance/(spacing_x*spacing_y)) + work%plain(:, :, 1)
+      if (boundary == FUGE_PERIODIC) displacement(3, :, k) = displacement(3, :, k) &
+        + sum(force)/(spacing_x*spacing_y*size(force))*compliance*yield_below(work%cut(k))
+    end do
+    call work%waves%free()
+  end subroutine fuge_layered_halfspace_displacement_grid
+
+  pure subroutine describe(nx, ny, spacing_x, spacing_y, boundary, work)
+    integer, intent(in) :: nx, ny, boundary
+    real(dp), intent(in) :: spacing_x, spacing_y
+    type(grid_work), intent(inout) :: work
+
+    work%grid%cells = [nx, ny]
+    work%grid%spacing = [spacing_x, spacing_y]
+    work%grid%boundary = boundary
+    work%grid%e_star = 1.0_dp
+  end subroutine describe
+
   !> Fit the mixtures, compute the sums and transform the forces. FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED.
-  subroutine start(work, force, depth, info)
+  subroutine start(work, force, depth, components, info)
     type(grid_work), intent(inout) :: work
     real(dp), intent(in) :: force(:), depth(:)
+    integer, intent(in) :: components
     type(fuge_info), intent(inout) :: info
     integer :: extent(2), k, kind(2), stat
 
     if (info%failed() .or. size(depth) < 1) return
-    allocate (work%mixture(size(depth)), work%plain(6, size(force), 1), stat=stat)
-    call require_memory(stat, 'stresses at', size(force), 'cells', info)
+    allocate (work%mixture(size(depth)), work%plain(components, size(force), 1), stat=stat)
+    call require_memory(stat, 'results at', size(force), 'cells', info)
     do k = 1, size(depth)
       if (.not. info%failed()) call fit_at_depth(work%cut(k), depth(k), work%mixture(k), info)
     end do
@@ -104,32 +172,34 @@ contains
     call work%sums%prepare(work%grid%cells, work%grid%spacing, kind, minval(work%mixture%first), stat)
     extent = merge(work%grid%cells - 1, work%grid%cells/2, kind == PLACES_OF)
     if (stat == 0) allocate (work%factor(0:extent(1), 0:extent(2)), stat=stat)
-    call require_memory(stat, 'stresses at', size(force), 'cells', info)
+    call require_memory(stat, 'results at', size(force), 'cells', info)
     if (.not. info%failed()) call work%waves%set(work%grid%cells, periodic(work%grid), &
                                                  .not. all(periodic(work%grid)), info)
     if (.not. info%failed()) call work%waves%transform(force)
   end subroutine start
 
-  !> `stress` (6, nx*ny) of the mixture, times the area of a cell.
-  subroutine find_stress(work, mixture, stress)
+  !> `field`, (components, nx*ny), those from number `before` + 1 on of the mixture, times the area of a cell.
+  subroutine find_field(work, mixture, before, field)
     type(grid_work), intent(inout) :: work
     type(depth_mixture), intent(in) :: mixture
-    real(dp), intent(inout) :: stress(:, :)
+    integer, intent(in) :: before
+    real(dp), intent(inout) :: field(:, :)
     integer :: c
 
-    do c = 1, 6
-      call fill_factor(work, mixture, c)
+    do c = 1, size(field, 1)
+      call fill_factor(work, mixture, before + c)
       if (work%grid%boundary == FUGE_PERIODIC) then
         work%factor(0, 0) = 0.0_dp
-        call work%waves%multiply(STRESS_KINDS(:, c), work%factor, stress(c, :))
+        call work%waves%multiply(KINDS(:, before + c), work%factor, field(c, :))
       else
-        call copy_table(work, mean_of_rows(work, mixture, c), stress(c, :))
+        call copy_table(work, mean_of_rows(work, mixture, before + c), field(c, :))
       end if
     end do
-    if (work%grid%boundary /= FUGE_PERIODIC) call convolve_tables(work%waves, STRESS_KINDS, stress)
-  end subroutine find_stress
+    if (work%grid%boundary == FUGE_PERIODIC) return
+    call convolve_tables(work%waves, KINDS(:, before + 1:before + size(field, 1)), field)
+  end subroutine find_field
 
-  !> Component `c` of the stress under unit pressure on a cell, or of a wave of it.
+  !> Component `c` under unit pressure on a cell, or of a wave of it.
   subroutine fill_factor(work, mixture, c)
     type(grid_work), intent(inout) :: work
     type(depth_mixture), intent(in) :: mixture
@@ -144,31 +214,45 @@ contains
       call work%sums%add_product(mixture, OF_ZZ, [0, 0], work%factor)
     case (4, 5)
       call work%sums%add_product(mixture, OF_SLOPE, merge([0, 1], [1, 0], c == 4), work%factor)
-    case default
+    case (6)
       call work%sums%add_product(mixture, OF_DIFFERENCE, [1, 1], work%factor)
+    case (7, 8)
+      call work%sums%add_product(mixture, OF_ALONG, merge([1, 0], [0, 1], c == 7), work%factor)
+    case default
+      call work%sums%add_product(mixture, OF_DOWN, [0, 0], work%factor)
     end select
   end subroutine fill_factor
 
-  !> Of a surface that is periodic along one direction: the mean of component `c` along it, at the cells across.
+  !> Of a surface that is periodic along one direction: the mean of component `c` along it, at the cells across. Of a
+  !> free one what is the same everywhere.
   function mean_of_rows(work, mixture, c) result(mean)
     type(grid_work), intent(in) :: work
     type(depth_mixture), intent(in) :: mixture
     integer, intent(in) :: c
     real(dp), allocatable :: mean(:)
-    integer :: across, direction
+    integer :: across, direction, k
 
     direction = merge(1, 2, work%grid%boundary == FUGE_PERIODIC_X)
-    allocate (mean(work%grid%cells(3 - direction)), source=0.0_dp)
-    if (work%grid%boundary == FUGE_FREE) return
     across = 3 - direction
+    allocate (mean(work%grid%cells(across)), source=0.0_dp)
+    if (work%grid%boundary == FUGE_FREE) then
+      if (c == 9) mean = work%sums%far_displacement(mixture)
+      return
+    end if
     if (c == across) then
       mean = work%sums%in_plane(mixture, OF_NN, .false., across)
     else if (c == direction) then
       mean = work%sums%in_plane(mixture, OF_TT, .false., across)
     else if (c == 3) then
       mean = work%sums%in_plane(mixture, OF_ZZ, .false., across)
-    else if (c == merge(4, 5, direction == 1)) then
+    else if (c == 6 - across) then
       mean = work%sums%in_plane(mixture, OF_SLOPE, .true., across)
+    else if (c == 6 + across) then
+      mean = work%sums%in_plane(mixture, OF_ALONG, .true., across) &
+             + work%sums%line_slope(mixture, across)*[(k*work%grid%spacing(across), k=0, size(mean) - 1)]
+    else if (c == 9) then
+      mean = work%sums%in_plane(mixture, OF_DOWN, .false., across) &
+             + work%sums%line_datum(mixture, across, 2.0_dp*size(mean)*work%grid%spacing(across))
     end if
     mean = mean/real(work%grid%cells(direction), dp)
   end function mean_of_rows

@@ -3,7 +3,7 @@
 module fuge_mixture_sums
   use fuge_cell_gaussians, only: circle_work, fill_gaussian_circle, fill_gaussian_places, fill_gaussian_waves
   use fuge_constants, only: PI
-  use fuge_depth_mixture, only: depth_mixture, POWERS, STEP
+  use fuge_depth_mixture, only: depth_mixture, OF_ALONG, OF_DOWN, POWERS, STEP
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemm
   implicit none
@@ -13,6 +13,11 @@ module fuge_mixture_sums
   real(dp), parameter :: NEGLIGIBLE = 6.3_dp
   !> Gaussians longer than this many times all distances are the same everywhere to rounding of their sum.
   real(dp), parameter :: FAR = 1.0e6_dp
+
+  !> So many lengths beyond the last weight are a sum to rounding.
+  integer, parameter :: MANY = 420
+  !> Euler's constant.
+  real(dp), parameter :: EULER = 0.57721566490153286_dp
 
   !> What a direction needs: the factors of waves, values at cells of a circle without their mean, or at cells.
   integer, parameter, public :: WAVES_OF = 1, CIRCLE_OF = 2, PLACES_OF = 3
@@ -30,6 +35,9 @@ module fuge_mixture_sums
     procedure :: prepare
     procedure :: add_product
     procedure :: in_plane
+    procedure :: far_displacement
+    procedure :: line_datum
+    procedure :: line_slope
   end type mixture_sums
 
 contains
@@ -136,6 +144,65 @@ contains
       end if
     end do
   end function in_plane
+
+  !> What all longer lengths add to the displacement along z under unit pressure on a cell, everywhere.
+  pure function far_displacement(self, mixture) result(displacement)
+    class(mixture_sums), intent(in) :: self
+    type(depth_mixture), intent(in) :: mixture
+    real(dp) :: displacement
+
+    displacement = product(self%spacing)/(4.0_dp*PI)*sum_beyond(self, mixture, OF_DOWN, -1, 0.0_dp)
+  end function far_displacement
+
+  !> What they add to that in plane strain, under unit pressure on a cell along `direction`: so that far away the
+  !> displacement would be zero at the distance `reach`.
+  pure function line_datum(self, mixture, direction, reach) result(displacement)
+    class(mixture_sums), intent(in) :: self
+    type(depth_mixture), intent(in) :: mixture
+    integer, intent(in) :: direction
+    real(dp), intent(in) :: reach
+    real(dp) :: displacement
+    real(dp) :: limit
+
+    limit = mixture%beyond(1, OF_DOWN)
+    displacement = sum_beyond(self, mixture, OF_DOWN, 0, limit) &
+                   - limit/STEP*(log(2.0_dp*last_length(self)/reach) + 0.5_dp*STEP - 0.5_dp*EULER)
+    displacement = displacement*self%spacing(direction)/(2.0_dp*sqrt(PI))
+  end function line_datum
+
+  !> What they add to the displacement along `direction` in plane strain, under unit pressure on a cell, for each unit
+  !> of distance.
+  pure function line_slope(self, mixture, direction) result(slope)
+    class(mixture_sums), intent(in) :: self
+    type(depth_mixture), intent(in) :: mixture
+    integer, intent(in) :: direction
+    real(dp) :: slope
+
+    slope = -self%spacing(direction)/(4.0_dp*sqrt(PI))*sum_beyond(self, mixture, OF_ALONG, -1, 0.0_dp)
+  end function line_slope
+
+  pure function last_length(sums) result(length)
+    type(mixture_sums), intent(in) :: sums
+    real(dp) :: length
+
+    length = exp(STEP*real(sums%first + size(sums%along_x, 2) - 1, dp))
+  end function last_length
+
+  !> The sum over all longer lengths of the weights less `limit` times t**power, power <= 0.
+  pure function sum_beyond(sums, mixture, function, power, limit) result(total)
+    type(mixture_sums), intent(in) :: sums
+    type(depth_mixture), intent(in) :: mixture
+    integer, intent(in) :: function, power
+    real(dp), intent(in) :: limit
+    real(dp) :: total
+    integer :: k, last
+
+    last = sums%first + size(sums%along_x, 2) - 1
+    total = 0.0_dp
+    do k = last + 1, max(last, mixture%first + size(mixture%weight, 1)) + MANY
+      total = total + (mixture%weight_of(function, k) - limit)*exp(STEP*real(power*k, dp))
+    end do
+  end function sum_beyond
 
   !> The weight of length number `k` of the sums, times t**m.
   pure function weight_at(sums, mixture, function, k) result(weight)
