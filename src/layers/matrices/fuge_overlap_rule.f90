@@ -57,22 +57,21 @@ contains
     end if
     plateau = 0.5_dp*abs(a - b)
     if (min(a, b) > 0.0_dp) then
-      call add_piece(self, d, [-half, -plateau], [half, a*b], smooth)
-      call add_piece(self, d, [plateau, half], [half, a*b], smooth)
+      call add_piece(self, d, [-half, -plateau], -half, a*b, smooth)
+      call add_piece(self, d, [plateau, half], half, a*b, smooth)
     end if
-    if (plateau > 0.0_dp) call add_piece(self, d, [-plateau, plateau], [half, a*b], smooth)
+    ! Where the shorter interval is inside the longer one.
+    if (plateau > 0.0_dp) call add_piece(self, d, [-plateau, plateau], 0.0_dp, max(a, b), smooth)
   end subroutine set
 
-  !> Add the nodes for s in the interval `piece`. `lengths` are half the sum of the two intervals, and their product,
-  !> for the density.
-  pure subroutine add_piece(self, d, piece, lengths, smooth)
+  !> Add the nodes for s in the interval `piece`, where the density of s is 1/`scale`, or with `zero` /= 0 |zero -
+  !> s|/`scale`.
+  pure subroutine add_piece(self, d, piece, zero, scale, smooth)
     class(overlap_rule), intent(inout) :: self
-    real(dp), intent(in) :: d, piece(2), lengths(2), smooth
-    real(dp) :: ends(2, PANELS), inner, length, s
+    real(dp), intent(in) :: d, piece(2), zero, scale, smooth
+    real(dp) :: ends(2, PANELS), length, s
     integer :: count, j, k, nodes
 
-    ! The plateau reaches as far to both sides.
-    inner = merge(piece(2), 0.0_dp, piece(1) < 0.0_dp .and. piece(2) > 0.0_dp)
     call divide(piece(1), piece(2), [-d], smooth, ends, count)
     do j = 1, count
       nodes = nodes_needed(ends(:, j), [-d], smooth)
@@ -80,22 +79,11 @@ contains
       do k = 1, nodes
         s = ends(1, j) + length*self%gauss_node(k, nodes)
         self%node(self%count + k) = d + s
-        self%weight(self%count + k) = length*self%gauss_weight(k, nodes)*density(s, inner, lengths(1), lengths(2))
+        self%weight(self%count + k) = length*self%gauss_weight(k, nodes)/scale
+        if (abs(zero) > 0.0_dp) self%weight(self%count + k) = self%weight(self%count + k)*abs(zero - s)
       end do
       self%count = self%count + nodes
     end do
   end subroutine add_piece
-
-  !> The density of s: constant up to `inner`, where the shorter interval is inside the longer one, linear beyond.
-  elemental function density(s, inner, half, product_of_lengths)
-    real(dp), intent(in) :: s, inner, half, product_of_lengths
-    real(dp) :: density
-
-    if (.not. product_of_lengths > 0.0_dp) then
-      density = 0.5_dp/half
-    else
-      density = (half - max(abs(s), inner))/product_of_lengths
-    end if
-  end function density
 
 end module fuge_overlap_rule
