@@ -191,12 +191,15 @@ contains
     real(dp) :: limit(2)
     integer, parameter :: USED(4) = [1, 4, 7, 10]
     real(dp) :: s(4), weight
-    integer :: i
+    integer :: i, j
 
     s = thickness(USED)/found(USED)%half_width
     limit = 0.0_dp
     do i = 1, 4
-      weight = product(s/(s - s(i)), mask=USED /= USED(i))
+      weight = 1.0_dp
+      do j = 1, 4
+        if (j /= i) weight = weight*s(j)/(s(j) - s(i))
+      end do
       limit = limit + weight*[found(USED(i))%half_width/thin_half_width(thickness(USED(i)), nu), &
                               found(USED(i))%peak/thin_peak(thickness(USED(i)), nu)]
     end do
