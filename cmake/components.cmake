@@ -7,7 +7,7 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS src/components.tx
 # uses_<component>: what a component uses.
 include(cmake/uses.cmake)
 fuge_read_uses("${PROJECT_SOURCE_DIR}/src/components.txt" uses_)
-# The facade uses just the six.
+# The facade uses just the seven.
 set(fuge_all_components ${uses_facade})
 
 set(fuge_components)

@@ -26,7 +26,7 @@ if(NOT status EQUAL 0)
 endif()
 execute_process(COMMAND "${CMAKE_CTEST_COMMAND}" --test-dir "${SCRATCH}" -N OUTPUT_VARIABLE list)
 foreach(name IN ITEMS api_grids api_halfspace example_rough example_c_ball legacy_surfaces
-    doc_tutorial_area_2 threads_pthreads mpi_same_answer_1)
+    doc_tutorial_area_2 doc_tutorial_layers_2 example_coated_ball threads_pthreads mpi_same_answer_1)
   if(list MATCHES ": ${name}\n")
     message(SEND_ERROR "the list has ${name}, which needs FFTW")
   endif()
