@@ -6,6 +6,8 @@ module fuge_stress
   use fuge_halfspace_depths, only: fuge_halfspace_displacement_grid, fuge_halfspace_stress_grid
   use fuge_halfspace_interior, only: fuge_halfspace_displacement, fuge_halfspace_stress
   use fuge_halfspace_peak_search, only: fuge_halfspace_peak
+  use fuge_interface_peaks, only: fuge_interface_stress, fuge_layered_halfplane_interfaces, &
+    fuge_layered_halfspace_interfaces
   use fuge_layered_halfplane_depths, only: fuge_layered_halfplane_displacement_grid, fuge_layered_halfplane_stress_grid
   use fuge_layered_halfspace_depths, only: fuge_layered_halfspace_displacement_grid, fuge_layered_halfspace_stress_grid
   use fuge_ring_interior, only: fuge_ring_interior_displacement, fuge_ring_stress

@@ -37,6 +37,7 @@ module fuge_layered_body_type
     procedure :: find_compliances
     procedure :: layers
     procedure :: has_layers
+    procedure :: interfaces
     procedure :: poisson => poisson_of_top
     procedure :: young => young_of_top
     procedure :: is_set
@@ -290,6 +291,16 @@ contains
 
     has_layers = self%first%has_layers()
   end function has_layers
+
+  !> The number of interfaces of the body that was described: layers that are bonded to the same material are one with
+  !> it.
+  elemental function interfaces(self) result(count)
+    class(fuge_layered_body), intent(in) :: self
+    integer :: count
+
+    count = 0
+    if (self%has_layers()) count = size(self%first%thickness)
+  end function interfaces
 
   !> Poisson's ratio of the top layer, of a body that is set.
   pure function poisson_of_top(self) result(poisson)

@@ -80,6 +80,8 @@ contains
       end if
       call find_field(work, work%mixture(k), [1, 2, 3], stress(:, :, k))
       stress(:, :, k) = stress(:, :, k)/spacing + work%plain(:, :, 1)
+      ! The pressure, without a rounding.
+      if (.not. depth(k) > 0.0_dp) stress(2:3, :, k) = work%plain(2:3, :, 1)
       if (work%periodic) call add_mean(work%cut(k), sum(force)/(spacing*size(force)), stress(:, :, k))
     end do
     call work%waves%free()

@@ -82,6 +82,8 @@ contains
       end if
       call find_field(work, work%mixture(k), 0, stress(:, :, k))
       stress(:, :, k) = stress(:, :, k)/(spacing_x*spacing_y) + work%plain(:, :, 1)
+      ! The pressure, without a rounding.
+      if (.not. depth(k) > 0.0_dp) stress(3:5, :, k) = work%plain(3:5, :, 1)
       if (boundary == FUGE_PERIODIC) call add_mean(work%cut(k), sum(force)/(spacing_x*spacing_y*size(force)), &
                                                    stress(:, :, k))
     end do
