@@ -169,6 +169,75 @@ int fuge_halfspace_displacement_grid(int nx, int ny, double spacing_x, double sp
                                      double poisson, int depths, const double *depth,
                                      double *displacement, char *message, size_t len);
 
+/* ---- stresses in layers ---------------------------------------------------
+ *
+ * In a body of layers (fuge_layers.h, whose arguments layers .. bonded come first), below the
+ * centres of the cells of a grid: in the body that these describe, not in the other one.  Other
+ * arguments and errors are those of the sections above, without the moduli of one body.
+ *   below   in   depths, or NULL: a depth at an interface is above it, or below it unless 0.
+ *                Stresses along the surface differ on both sides, and where layers slide also
+ *                displacements along it
+ * With FUGE_PERIODIC the mean pressure gives the half-space below the layers no stress along the
+ * surface, and the layers the same strain as it has, on a rigid base none; displacements count
+ * from the mean at each depth, on a rigid base from the base.  FUGE_ERR_GRID also for a depth in
+ * a rigid base, FUGE_ERR_ELEMENT for FUGE_HAT; other errors of the layers as in fuge_layers.h. */
+
+int fuge_layered_halfplane_stress_grid(int layers, const double *thickness, const double *young,
+                                       const double *poisson, int bonded, int n, double spacing,
+                                       const double *force, int element, int boundary,
+                                       int depths, const double *depth, const int *below,
+                                       double *stress, char *message, size_t len);
+
+int fuge_layered_halfplane_displacement_grid(int layers, const double *thickness,
+                                             const double *young, const double *poisson,
+                                             int bonded, int n, double spacing,
+                                             const double *force, int element, int boundary,
+                                             int depths, const double *depth, const int *below,
+                                             double *displacement, char *message, size_t len);
+
+int fuge_layered_halfspace_stress_grid(int layers, const double *thickness, const double *young,
+                                       const double *poisson, int bonded, int nx, int ny,
+                                       double spacing_x, double spacing_y, const double *force,
+                                       int boundary, int depths, const double *depth,
+                                       const int *below, double *stress, char *message,
+                                       size_t len);
+
+int fuge_layered_halfspace_displacement_grid(int layers, const double *thickness,
+                                             const double *young, const double *poisson,
+                                             int bonded, int nx, int ny, double spacing_x,
+                                             double spacing_y, const double *force, int boundary,
+                                             int depths, const double *depth, const int *below,
+                                             double *displacement, char *message, size_t len);
+
+/* The largest stresses of the surface or of an interface, and the cells above them. */
+typedef struct {
+  double depth;
+  /* The largest principal stress, tension positive, above the interface and below it; at the
+   * surface, and at a rigid base, both are those in the layers. */
+  double tension_above, tension_below;
+  /* The largest shear stress between both sides, and the largest stress zz, which opens it. */
+  double shear, opening;
+  int cell_above, cell_below, cell_of_shear, cell_of_opening;
+} fuge_interface_stress;
+
+/* Those of the surface and of all interfaces below a grid.
+ *   interfaces   out  their number, at most layers: layers that are bonded to the same material
+ *                     are one with it
+ *   peaks        out  interfaces + 1, room for layers + 1: the surface, then from above
+ * At the surface stresses jump from cell to cell at the edge of the contact, and their error is
+ * of the order of a cell. */
+int fuge_layered_halfplane_interfaces(int layers, const double *thickness, const double *young,
+                                      const double *poisson, int bonded, int n, double spacing,
+                                      const double *force, int element, int boundary,
+                                      int *interfaces, fuge_interface_stress *peaks,
+                                      char *message, size_t len);
+
+int fuge_layered_halfspace_interfaces(int layers, const double *thickness, const double *young,
+                                      const double *poisson, int bonded, int nx, int ny,
+                                      double spacing_x, double spacing_y, const double *force,
+                                      int boundary, int *interfaces,
+                                      fuge_interface_stress *peaks, char *message, size_t len);
+
 /* ---- stresses of round bodies -------------------------------------------- */
 
 /* Stresses in a half-space under forces on rings about one axis, to rounding at any depth and

@@ -10,8 +10,10 @@ module fuge_c_stress_grid
   implicit none
   private
 
+  public :: cells_of, find_arrays, require_grid
+
   !> Forces of the cells, depths, and a result (component, cell, depth).
-  type :: grid_arrays
+  type, public :: grid_arrays
     real(c_double), pointer :: force(:) => null(), depth(:) => null(), found(:, :, :) => null()
   end type grid_arrays
 

@@ -36,8 +36,8 @@ contains
   !>
   !> `body`, `nx`, `ny`, `spacing_x`, `spacing_y`, `force` and `boundary` as for `fuge_layered_halfspace_stress_grid`;
   !> out: `peaks`, (body%interfaces() + 1), of the surface and of the interfaces from above. They are those below the
-  !> centres of cells: at the surface the stresses of the last cells in contact jump from one cell to the next, and their
-  !> error is of the order of a cell.
+  !> centres of cells: at the surface the stresses of the last cells in contact jump from one cell to the next, and
+  !> their error is of the order of a cell.
   !>
   !> Nine arguments: the grid alone has four. Errors, peaks untouched: as for `fuge_layered_halfspace_stress_grid`.
   subroutine fuge_layered_halfspace_interfaces(body, nx, ny, spacing_x, spacing_y, force, boundary, peaks, info)
@@ -96,7 +96,8 @@ contains
         call find_side(body, k - 1, side, depth, below)
         call fuge_layered_halfplane_stress_grid(body, spacing, force, element, boundary, [depth], stress, info, [below])
         cut = cut_at(body%layers(), depth, below)
-        if (.not. info%failed()) call fuge_halfplane_tensor(stress(:, :, 1), FUGE_PLANE_STRAIN, cut%poisson, tensor, info)
+        if (.not. info%failed()) call fuge_halfplane_tensor(stress(:, :, 1), FUGE_PLANE_STRAIN, cut%poisson, tensor, &
+                                                            info)
         if (.not. info%failed()) call take_side(tensor, depth, side, found(k), info)
       end do
     end do
@@ -112,8 +113,8 @@ contains
     if (.not. body%is_set()) then
       call report(info, FUGE_ERR_CALL_ORDER, 'body: no layers are set')
     else if (given /= body%interfaces() + 1) then
-      call report(info, FUGE_ERR_SIZE, 'peaks has '//text(given)//' values for the surface and '//text(body%interfaces()) &
-                  //' interfaces')
+      call report(info, FUGE_ERR_SIZE, 'peaks has '//text(given)//' values for the surface and ' &
+                  //text(body%interfaces())//' interfaces')
     end if
   end subroutine check_peaks
 
