@@ -66,9 +66,9 @@ static void test_interface(void) {
 static void test_errors(void) {
   const double depth[] = {0.5}, rigid[] = {1.0, INFINITY};
   double force[CELLS], stress[6 * CELLS] = {7.0};
-  fuge_interface_stress peaks[2] = {{7.0}};
+  fuge_interface_stress peaks[2] = {{7.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0, 0}, {0.0, 0.0, 0.0, 0.0, 0.0, 0, 0, 0, 0}};
   int interfaces = 7;
-  char message[FUGE_MESSAGE_LENGTH];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   press(force);
   CHECK_INT(fuge_layered_halfspace_stress_grid(1, thickness, rigid, poisson, 1, N, N, 0.2, 0.2, force, FUGE_FREE, 1, depth,
                                                NULL, stress, message, sizeof message), FUGE_ERR_GRID);
