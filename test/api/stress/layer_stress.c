@@ -9,7 +9,7 @@ static const double thickness[] = {0.3}, young[] = {4.0, 1.0}, poisson[] = {0.2,
 static void press(double *force) {
   for (int k = 0; k < CELLS; k++) {
     const int i = k % N - N / 2, j = k / N - N / 2;
-    force[k] = i * i + j * j < 9 ? 1.0 : 0.0;
+    force[k] = i * i + j * j < 9 ? sqrt(9.0 - i * i - j * j) : 0.0;
   }
 }
 
