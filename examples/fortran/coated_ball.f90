@@ -1,17 +1,21 @@
-!> A steel ball on a steel plate with a hard film: pressure, contact radius and approach over the thickness of the film.
+!> A steel ball on a steel plate with a hard film: pressure, contact radius and approach over the thickness of the film,
+!> and where the film would crack or come off.
 !>
 !>     coated_ball [cells [folder for its tables]]
 !>
 !> The grid has `cells` x `cells` squares, 256 unless given. Thin films leave Hertz's contact of the bare bodies, thick
 !> ones give that of a ball on a plate of the film's material; a film of steel changes nothing at any thickness. Lengths
 !> count in the contact radius a_H, pressures in the largest pressure p_H and approaches in the approach of the bare
-!> bodies. One film is solved on rings too, by a matrix and the dense engine.
+!> bodies. One film is solved on rings too, by a matrix and the dense engine. Brittle films crack where the tension is
+!> largest: at the surface in a ring around the contact, or at their bottom below its middle, where they bend. They come
+!> off by the shear stress at the interface.
 !> For the picture it writes coated_ball.csv.
 program coated_ball
   use example_output, only: create_file
   use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_hertz_contact, fuge_hertz_ellipse, fuge_info, &
-    fuge_layered_body, fuge_layered_ring_matrix, fuge_problem, fuge_solution, fuge_solve_dense, fuge_solver
+    fuge_interface_stress, fuge_layered_body, fuge_layered_halfspace_interfaces, fuge_layered_ring_matrix, &
+    fuge_problem, fuge_solution, fuge_solve_dense, fuge_solver, FUGE_FREE
   implicit none
 
   real(dp), parameter :: PI = acos(-1.0_dp)
@@ -31,6 +35,9 @@ program coated_ball
   type :: contact_of_ball
     real(dp) :: pressure = 0.0_dp, radius = 0.0_dp, approach = 0.0_dp
     integer :: products = 0
+    !> Over p_H: the largest tension at the surface, and its distance from the axis over a_H; that at the bottom of the
+    !> film, and the largest shear stress there; 0 where film and plate are one.
+    real(dp) :: surface = 0.0_dp, place = 0.0_dp, bottom = 0.0_dp, shear = 0.0_dp
   end type contact_of_ball
 
   call run()
@@ -47,11 +54,12 @@ contains
     thickness = [(THINNEST*(THICKEST/THINNEST)**(real(i - 1, dp)/(FILMS - 1)), i=1, FILMS)]
     do j = 1, size(STIFFER)
       print '(/,a,f4.1,a)', 'Film of', STIFFER(j), ' times the modulus of steel'
-      print '(a)', '   h/a_H     p/p_H     a/a_H  approach  products'
+      print '(a)', '   h/a_H     p/p_H     a/a_H  approach  products   tension at r/a_H  at bottom     shear'
       do i = 1, FILMS
         call press(thickness(i), STIFFER(j), cells, found(i, j))
-        if (modulo(i, 2) == 1) print '(f8.3,3f10.5,i10)', thickness(i), found(i, j)%pressure, found(i, j)%radius, &
-          found(i, j)%approach, found(i, j)%products
+        if (modulo(i, 2) == 1) print '(f8.3,3f10.5,i10,2f10.4,2f10.4)', thickness(i), found(i, j)%pressure, &
+          found(i, j)%radius, found(i, j)%approach, found(i, j)%products, found(i, j)%surface, found(i, j)%place, &
+          found(i, j)%bottom, found(i, j)%shear
       end do
     end do
     call compare(found, known)
@@ -130,7 +138,29 @@ contains
     i = cells*(cells/2)
     found%radius = radius_of(x(cells/2 + 1:)**2 + x(cells/2 + 1)**2, solution%force(i + cells/2 + 1:i + cells)) &
                    /bare%semi_axis_x
+    call find_stresses(bodies, h, cells, solution%force, bare, found)
   end subroutine press
+
+  !> The largest stresses of the surface and of the interface.
+  subroutine find_stresses(bodies, h, cells, force, bare, found)
+    type(fuge_layered_body), intent(in) :: bodies
+    real(dp), intent(in) :: h, force(:)
+    integer, intent(in) :: cells
+    type(fuge_hertz_contact), intent(in) :: bare
+    type(contact_of_ball), intent(inout) :: found
+    type(fuge_interface_stress) :: peaks(bodies%interfaces() + 1)
+    type(fuge_info) :: info
+    integer :: cell
+
+    call fuge_layered_halfspace_interfaces(bodies, cells, cells, h, h, force, FUGE_FREE, peaks, info)
+    call require(info, 'stresses')
+    found%surface = peaks(1)%tension_above/bare%peak_pressure
+    cell = peaks(1)%cell_above - 1
+    found%place = hypot(modulo(cell, cells) - 0.5_dp*(cells - 1), cell/cells - 0.5_dp*(cells - 1))*h/bare%semi_axis_x
+    if (size(peaks) < 2) return
+    found%bottom = peaks(2)%tension_above/bare%peak_pressure
+    found%shear = peaks(2)%shear/bare%peak_pressure
+  end subroutine find_stresses
 
   !> The contact radius, finer than the squares: near the edge the square of the pressure falls linearly with `r2`, the
   !> square of the distance from the axis. A straight line of least squares through some cells, without the last one,
@@ -160,6 +190,10 @@ contains
     do i = 1, FILMS
       call known%compare([found(i, 1)%pressure, found(i, 1)%radius, found(i, 1)%approach] - 1.0_dp, 1.0e-3_dp, &
                          'a film of steel')
+      ! Hertz's tension around the contact (K. L. Johnson, Contact Mechanics, 1985, equation 3.47), which falls within
+      ! a square.
+      call known%compare(found(i, 1)%surface*3.0_dp/(1.0_dp - 2.0_dp*POISSON) - 1.0_dp, 0.1_dp, 'tension of steel')
+      call known%compare(found(i, 1)%place - 1.0_dp, 0.03_dp, 'where steel is in tension')
     end do
     do j = 2, size(STIFFER)
       solid = hertz_of(STIFFER(j))
@@ -210,10 +244,12 @@ contains
 
     call create_file('coated_ball.csv', 2, file)
     write (file, '(a)') 'thickness,pressure_1,radius_1,approach_1,pressure_2,radius_2,approach_2,' &
-      //'pressure_3,radius_3,approach_3'
+      //'pressure_3,radius_3,approach_3,surface_1,bottom_1,shear_1,surface_2,bottom_2,shear_2,surface_3,bottom_3,' &
+      //'shear_3'
     do i = 1, size(thickness)
       write (file, '(*(es14.6,:,","))') thickness(i), &
-        (found(i, j)%pressure, found(i, j)%radius, found(i, j)%approach, j=1, size(STIFFER))
+        (found(i, j)%pressure, found(i, j)%radius, found(i, j)%approach, j=1, size(STIFFER)), &
+        (found(i, j)%surface, found(i, j)%bottom, found(i, j)%shear, j=1, size(STIFFER))
     end do
     close (file)
   end subroutine write_table
