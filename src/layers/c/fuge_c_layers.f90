@@ -1,12 +1,9 @@
 !> C bindings, section "layers".
 module fuge_c_layers
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
-  use fuge_c_arrays, only: find_array, give
+  use fuge_c_arrays, only: find_array
   use fuge_c_operator, only: find_matrix, new_operator
   use fuge_c_types, only: report_to_c, require_count, require_pointer
-  use fuge_coating_thickness, only: fuge_find_coating_limits
-  use fuge_effective_modulus, only: fuge_find_effective_modulus
-  use fuge_graded_layers_type, only: fuge_graded_layers
   use fuge_halfplane_fft, only: fuge_halfplane_operator
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_layered_body_type, only: fuge_layered_body
@@ -16,6 +13,8 @@ module fuge_c_layers
   use fuge_status, only: fuge_info
   implicit none
   private
+
+  public :: find_layers
 
 contains
 
@@ -153,79 +152,6 @@ contains
     if (.not. info%failed()) call body%find_compliances(wave_numbers, results, info)
     status = report_to_c(info, message, length)
   end function c_layered_waves
-
-  !> Thirteen arguments, as in the header: the profile, the tolerance, the layers, the error, the message.
-  function c_graded_layers(points, depth, young, poisson, tolerance, max_layers, layers, thickness, layer_young, &
-                           layer_poisson, error, message, length) bind(c, name='fuge_graded_layers') result(status)
-    integer(c_int), intent(in), value :: points, max_layers
-    real(c_double), intent(in), value :: tolerance
-    type(c_ptr), intent(in), value :: depth, young, poisson, layers, thickness, layer_young, layer_poisson, error, message
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    real(c_double), pointer :: depths(:), moduli(:), ratios(:)
-    type(fuge_graded_layers) :: found
-    type(fuge_info) :: info
-
-    call require_count(points, 1, 'points', 'points', info)
-    call require_count(max_layers, 0, 'max_layers', 'layers', info)
-    call find_array(points, depth, 'depth', depths, info)
-    call find_array(points, young, 'young', moduli, info)
-    call find_array(points, poisson, 'poisson', ratios, info)
-    call require_pointer(layers, 'layers', info)
-    if (max_layers > 0) call require_pointer(thickness, 'thickness', info)
-    call require_pointer(layer_young, 'layer_young', info)
-    call require_pointer(layer_poisson, 'layer_poisson', info)
-    if (.not. info%failed()) call found%divide(depths, moduli, ratios, info, tolerance, int(max_layers))
-    if (.not. info%failed()) then
-      call give(size(found%thickness), layers)
-      call give(found%thickness, thickness)
-      call give(found%young, layer_young)
-      call give(found%poisson, layer_poisson)
-      call give(found%error, error)
-    end if
-    status = report_to_c(info, message, length)
-  end function c_graded_layers
-
-  !> Eleven arguments, as in the header: the layers, the other body, the radii, the message.
-  function c_layered_modulus(layers, thickness, young, poisson, bonded, e_star_other, radii, radius, modulus, message, &
-                             length) bind(c, name='fuge_layered_modulus') result(status)
-    integer(c_int), intent(in), value :: layers, bonded, radii
-    real(c_double), intent(in), value :: e_star_other
-    type(c_ptr), intent(in), value :: thickness, young, poisson, radius, modulus, message
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    real(c_double), pointer :: contact_radii(:), results(:)
-    type(fuge_layered_body) :: body
-    type(fuge_info) :: info
-
-    call require_count(radii, 0, 'radii', 'radii', info)
-    call find_array(radii, radius, 'radius', contact_radii, info)
-    call find_array(radii, modulus, 'modulus', results, info)
-    call find_layers(layers, thickness, young, poisson, bonded, e_star_other, body, info)
-    if (.not. info%failed()) call fuge_find_effective_modulus(body, contact_radii, results, info)
-    status = report_to_c(info, message, length)
-  end function c_layered_modulus
-
-  function c_coating_limits(young, poisson, radius, share, thin, thick, message, length) &
-    bind(c, name='fuge_coating_limits') result(status)
-    type(c_ptr), intent(in), value :: young, poisson, thin, thick, message
-    real(c_double), intent(in), value :: radius, share
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    real(c_double), pointer :: moduli(:), ratios(:)
-    real(c_double) :: limits(2)
-    type(fuge_info) :: info
-
-    limits = 0.0_c_double
-    call find_array(2, young, 'young', moduli, info)
-    call find_array(2, poisson, 'poisson', ratios, info)
-    if (.not. info%failed()) call fuge_find_coating_limits(moduli, ratios, radius, share, limits(1), limits(2), info)
-    if (.not. info%failed()) then
-      call give(limits(1), thin)
-      call give(limits(2), thick)
-    end if
-    status = report_to_c(info, message, length)
-  end function c_coating_limits
 
   !> The layers behind these arguments. Eight arguments, those of the header.
   subroutine find_layers(layers, thickness, young, poisson, bonded, e_star_other, body, info)
