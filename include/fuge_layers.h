@@ -99,9 +99,9 @@ int fuge_layered_waves(int layers, const double *thickness, const double *young,
  *   error          out  estimate of the relative error: a third of the largest difference from
  *                       half as many layers, because layers are of second order in their
  *                       thickness; may be NULL
- * FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for depths, FUGE_ERR_MODULUS,
- * FUGE_ERR_OPTION for the tolerance, FUGE_ERR_ITERATION_LIMIT if that takes more than
- * max_layers: the message says how many. */
+ * FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for depths, FUGE_ERR_MODULUS, both also
+ * for ratios above 1e8, FUGE_ERR_OPTION for the tolerance, FUGE_ERR_ITERATION_LIMIT if that
+ * takes more than max_layers: the message says how many. */
 int fuge_graded_layers(int points, const double *depth, const double *young,
                        const double *poisson, double tolerance, int max_layers, int *layers,
                        double *thickness, double *layer_young, double *layer_poisson,

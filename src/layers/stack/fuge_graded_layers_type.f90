@@ -4,6 +4,7 @@ module fuge_graded_layers_type
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_layer_stack, only: bonded_stack, layer_stack
+  use fuge_layered_body_type, only: check_layers
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MODULUS, &
     FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
@@ -12,7 +13,7 @@ module fuge_graded_layers_type
 
   !> Relative error of the surface's displacement, and the number of layers, unless the caller says otherwise.
   real(dp), parameter :: DEFAULT_TOLERANCE = 1.0e-4_dp
-  integer, parameter :: DEFAULT_MAX_LAYERS = 1000
+  integer, parameter :: DEFAULT_MAX_LAYERS = 2000
   !> The range of the tolerance: rounding, and no more than a guess.
   real(dp), parameter :: LEAST_TOLERANCE = 1.0e-10_dp, LARGEST_TOLERANCE = 0.1_dp
   !> Layers of the first division, before they are halved, and the most by which the next one has more.
@@ -59,10 +60,11 @@ contains
   !> Each layer has the values at its middle. Layers are thin near the surface and where the modulus changes fast, so
   !> that their error is of the second order for waves of any length; where nothing changes there is one layer. Their
   !> number grows until the error is at most `tolerance`, relative, 1e-10 .. 0.1, default 1e-4. The error is estimated
-  !> by a third of the largest difference from half as many layers. `max_layers`: the most layers, default 1000.
+  !> by a third of the largest difference from half as many layers. `max_layers`: the most layers, default 2000.
   !>
   !> Errors, the layers untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for depths, FUGE_ERR_MODULUS,
-  !> FUGE_ERR_OPTION for the tolerance, FUGE_ERR_ITERATION_LIMIT if that takes more layers, FUGE_ERR_MEMORY.
+  !> both also for ratios that the `set` refuses, FUGE_ERR_OPTION for the tolerance, FUGE_ERR_ITERATION_LIMIT if that
+  !> takes more layers, FUGE_ERR_MEMORY.
   subroutine divide(self, depth, young, poisson, info, tolerance, max_layers)
     class(fuge_graded_layers), intent(inout) :: self
     real(dp), intent(in) :: depth(:), young(:), poisson(:)
@@ -89,6 +91,7 @@ contains
     if (info%failed()) return
     call measure_changes(depth, young, poisson, profile)
     call refine(profile, wanted, most, found, info)
+    if (.not. info%failed()) call check_layers(found%thickness, found%young, found%poisson, info)
     if (info%failed()) return
     call move_alloc(found%thickness, self%thickness)
     call move_alloc(found%young, self%young)
