@@ -178,13 +178,11 @@ class EffectiveModulus(unittest.TestCase):
         self.assertAlmostEqual(float(SAME.effective_modulus(3.0)), SAME.e_star)
 
     def test_flat_punch(self):
-        # The stiffness by rings, which the pressure on a half-space gives nearly.
-        layers = fuge.Layers(1.0, [10.0, 1.0], 0.3)
+        # The stiffness by rings.
+        layers = fuge.Layers(0.3, [10.0, 1.0], 0.3)
         radius = np.sin(np.linspace(0.0, np.pi / 2, 61))
         stiffness = np.linalg.solve(layers.ring_matrix(radius), np.ones(60)).sum()
-        found = 2.0 * float(layers.effective_modulus(1.0))
-        self.assertLess(found, stiffness)
-        self.assertGreater(found, 0.98 * stiffness)
+        self.assertAlmostEqual(float(layers.effective_modulus(1.0)) / stiffness, 0.5, delta=5e-5)
 
     def test_coating(self):
         young, poisson, radius, share = [10.0, 1.0], [0.3, 0.2], 2.0, 0.01

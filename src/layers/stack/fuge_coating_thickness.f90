@@ -1,7 +1,7 @@
 !> From which thickness on a coating is felt, and from which on the body below it is not.
 module fuge_coating_thickness
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_positive_inf, ieee_value
-  use fuge_effective_modulus, only: mean_wave_factor
+  use fuge_effective_modulus, only: punch_factor
   use fuge_kinds, only: dp
   use fuge_layer_stack, only: bonded_stack, layer_stack
   use fuge_layered_body_type, only: check_layers
@@ -63,7 +63,7 @@ contains
     thin = below
   end subroutine fuge_find_coating_limits
 
-  !> The thickness for the radius 1 at which the change from the mean T of `limit` first exceeds `share`, from thin
+  !> The thickness for the radius 1 at which the change from the T of `limit` first exceeds `share`, from thin
   !> coatings on if `side` is -1, from thick ones on if it is 1.
   function limit_from(stack, share, limit, side) result(thickness)
     type(layer_stack), intent(in) :: stack
@@ -105,7 +105,7 @@ contains
       logical :: is_felt
 
       ! Waves and thickness count by their product only.
-      is_felt = abs(limit/mean_wave_factor(stack, 10.0_dp**(-exponent)) - 1.0_dp) > share
+      is_felt = abs(limit/punch_factor(stack, 10.0_dp**(-exponent)) - 1.0_dp) > share
     end function is_felt
 
   end function limit_from

@@ -11,19 +11,24 @@ module fuge_effective_modulus
   implicit none
   private
 
-  public :: fuge_find_effective_modulus, mean_wave_factor
+  public :: fuge_find_effective_modulus, punch_factor
 
+  !> Functions of which the pressure under the punch is made.
+  integer, parameter :: FUNCTIONS = 8
   !> Nodes of a panel.
   integer, parameter :: NODES = 8
   !> Panels below the first quarter of a wave, each half as wide as the next: what is left is less than rounding.
   integer, parameter :: HALVINGS = 60
-  !> Quarters of waves that are summed one by one. Beyond, sin(x)**2 is one half: these end where sin(2 x) = 0, so that
-  !> the error is of the order 1/x**3 of the last one.
-  integer, parameter :: QUARTERS = 200
+  !> Quarters of waves that are summed one by one. Beyond, all functions are sin(x)/x, and sin(x)**2 is one half: these
+  !> end where sin(2 x) = 0, so that the error is of the order 1/x**3 of the last one.
+  integer, parameter :: QUARTERS = 400
   !> Panels beyond, each twice as wide as the one before.
   integer, parameter :: DOUBLINGS = 60
-  !> T that is as near to 1 as this is 1 for all shorter waves.
+  !> T that is as near to 1 as this is 1 for all shorter waves; what is left of an energy below this part is rounding.
   real(dp), parameter :: CLOSE = 1.0e-15_dp
+  !> Spherical Bessel functions: the highest order, up to which x the recurrence runs down, and from which order.
+  integer, parameter :: HIGHEST = 2*FUNCTIONS - 2, BEGIN = HIGHEST + 26
+  real(dp), parameter :: LARGE_X = 16.0_dp
 
   !> The waves of a body.
   type, extends(wave_symbol) :: body_symbol
@@ -36,17 +41,16 @@ contains
 
   !> The effective modulus of a layered body under round contacts of given size.
   !>
-  !> `radius` (n), > 0, length. `modulus` (n), force per length squared: E/(1 - nu**2) of the half-space whose surface
-  !> gives way as much, with the other body of `body`, under the pressure F/(2 pi a sqrt(a**2 - r**2)) of a flat round
-  !> punch of this radius a, in the mean weighted by that pressure. It goes from that of the top layer, under small
-  !> contacts, to that of the half-space below, and grows without limit on a rigid base.
+  !> `radius` (n), > 0, length. `modulus` (n), force per length squared: E/(1 - nu**2) of the half-space on which a rigid
+  !> flat punch of this radius a is as stiff, with the other body of `body`: dF/dd = 2 a E. That is also the stiffness
+  !> of a round punch of any profile with this contact radius, because it moves on as a flat one, so this is the modulus
+  !> that indentation measures. It goes from that of the top layer, under small contacts, to that of the half-space
+  !> below, and grows without limit on a rigid base.
   !>
-  !> The stiffness dF/dd = 2 a E of a round punch of any profile is that of the flat punch of its contact radius, so
-  !> this is about the modulus that indentation measures. It is never above that of a rigid punch, whose own pressure
-  !> does the least work, and differs from it in the second order of the difference of the moduli: by at most 0.08 of it
-  !> for moduli 10 : 1 or 1 : 10 and thicknesses of 0.1 .. 10 radii, by up to 0.24 for 1 : 100, by more for thin layers
-  !> on a rigid base. To the first order it is the formula of H. Gao, C.-H. Chiu and J. Lee, International Journal of
-  !> Solids and Structures 29, 1992. Quadrature is exact to about 1e-7.
+  !> The waves of the pressure are the cosine transform of a function on 0 .. a (N. N. Lebedev and Ia. S. Ufliand,
+  !> Journal of Applied Mathematics and Mechanics 22, 1958), here of eight even Legendre polynomials with the least
+  !> energy, so that the modulus is never too large. For moduli 1 : 100 .. 100 : 1 and on a rigid base it is exact to
+  !> 4e-6 for thicknesses from 0.1 radii on, to 1e-3 from 0.03 and to 5e-3 from 0.01 on.
   !>
   !> Errors, `modulus` untouched: FUGE_ERR_CALL_ORDER before the `set` of body, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
   !> FUGE_ERR_WIDTH for a radius that is not positive.
@@ -70,7 +74,7 @@ contains
     if (info%failed()) return
     symbol%body = body
     do k = 1, size(radius)
-      modulus(k) = body%e_star()/mean_wave_factor(symbol, radius(k))
+      modulus(k) = body%e_star()/punch_factor(symbol, radius(k))
     end do
   end subroutine fuge_find_effective_modulus
 
@@ -87,19 +91,20 @@ contains
     end if
   end subroutine check_radius
 
-  !> The mean of T over the waves of the pressure under a flat round punch: 2/pi times the integral of
-  !> T(x/radius) (sin(x)/x)**2 over all x > 0.
-  function mean_wave_factor(symbol, radius) result(mean)
+  !> T of the half-space on which a rigid flat punch is as stiff as on the body of `symbol`.
+  function punch_factor(symbol, radius) result(factor)
     class(wave_symbol), intent(in) :: symbol
     real(dp), intent(in) :: radius
-    real(dp) :: mean
+    real(dp) :: factor
     real(dp), parameter :: QUARTER = 0.5_dp*PI
-    real(dp) :: from, node(NODES), total, weight(NODES), weights
+    ! Energies of each two functions, on the body and on a half-space of T = 1.
+    real(dp) :: energy(FUNCTIONS, FUNCTIONS), known(FUNCTIONS, FUNCTIONS)
+    real(dp) :: from, node(NODES), weight(NODES)
     integer :: k
 
     call gauss_rule(node, weight)
-    total = 0.0_dp
-    weights = 0.0_dp
+    energy = 0.0_dp
+    known = 0.0_dp
     do k = 1, HALVINGS
       from = QUARTER*0.5_dp**k
       call add_panel(from, from)
@@ -113,21 +118,24 @@ contains
       call add_tail(from)
       from = 2.0_dp*from
     end do
-    mean = (total + 0.5_dp/from)/(weights + 0.5_dp/from)
+    factor = least_energy(energy + 0.5_dp/from)/least_energy(known + 0.5_dp/from)
 
   contains
 
     !> The waves `start` .. `start` + `width`.
     subroutine add_panel(start, width)
       real(dp), intent(in) :: start, width
-      real(dp) :: share, x
-      integer :: i
+      real(dp) :: product(FUNCTIONS, FUNCTIONS), wave(FUNCTIONS), x
+      integer :: i, j
 
       do i = 1, NODES
         x = start + width*node(i)
-        share = width*weight(i)*(sin(x)/x)**2
-        weights = weights + share
-        total = total + share*symbol%wave_factor(x/radius)
+        wave = waves_of_pressure(x)
+        do j = 1, FUNCTIONS
+          product(:, j) = width*weight(i)*wave*wave(j)
+        end do
+        known = known + product
+        energy = energy + symbol%wave_factor(x/radius)*product
       end do
     end subroutine add_panel
 
@@ -140,12 +148,58 @@ contains
       do i = 1, NODES
         x = start*(1.0_dp + node(i))
         share = 0.5_dp*start*weight(i)/x**2
-        weights = weights + share
-        total = total + share*symbol%wave_factor(x/radius)
+        known = known + share
+        energy = energy + share*symbol%wave_factor(x/radius)
       end do
     end subroutine add_tail
 
-  end function mean_wave_factor
+  end function punch_factor
+
+  !> The least energy of the first function, which alone has a resultant, with any amounts of the others: what is left
+  !> of its own when they are eliminated.
+  pure function least_energy(matrix) result(energy)
+    real(dp), intent(in) :: matrix(:, :)
+    real(dp) :: energy
+    real(dp) :: a(size(matrix, 1), size(matrix, 1))
+    integer :: j, k
+
+    a = matrix
+    do k = size(a, 1), 2, -1
+      if (a(k, k) <= CLOSE*matrix(k, k)) cycle
+      do j = 1, k - 1
+        a(:k - 1, j) = a(:k - 1, j) - a(:k - 1, k)*(a(k, j)/a(k, k))
+      end do
+    end do
+    energy = max(a(1, 1), CLOSE*matrix(1, 1))
+  end function least_energy
+
+  !> The integrals of cos(x s) P(s) over s = 0 .. 1, with the Legendre polynomials P of the degrees 0, 2, 4 ..: the
+  !> spherical Bessel functions of these orders, with alternating signs.
+  pure function waves_of_pressure(x) result(wave)
+    real(dp), intent(in) :: x
+    real(dp) :: wave(FUNCTIONS)
+    real(dp) :: bessel(0:BEGIN)
+    integer :: n
+
+    bessel(0) = sin(x)/x
+    if (x < LARGE_X) then
+      ! Ratios of each to the one before, from an order on that is far less.
+      bessel(BEGIN) = 0.0_dp
+      do n = BEGIN - 1, 1, -1
+        bessel(n) = x/(real(2*n + 1, dp) - x*bessel(n + 1))
+      end do
+      do n = 1, HIGHEST
+        bessel(n) = bessel(n - 1)*bessel(n)
+      end do
+    else
+      bessel(1) = (bessel(0) - cos(x))/x
+      do n = 1, HIGHEST - 1
+        bessel(n + 1) = real(2*n + 1, dp)/x*bessel(n) - bessel(n - 1)
+      end do
+    end if
+    wave(1::2) = bessel(0:HIGHEST:4)
+    wave(2::2) = -bessel(2:HIGHEST:4)
+  end function waves_of_pressure
 
   pure function wave_factor(self, q) result(factor)
     class(body_symbol), intent(in) :: self
