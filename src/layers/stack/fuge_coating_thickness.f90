@@ -12,8 +12,7 @@ module fuge_coating_thickness
 
   public :: fuge_find_coating_limits
 
-  !> Thicknesses over the contact radius are looked at from 10 to the power of minus this to its inverse, so many in a
-  !> power of ten.
+  !> Powers of ten above and below the contact radius in which limits are looked for, and steps in each of them.
   integer, parameter :: DECADES = 16, STEPS_PER_DECADE = 2
   !> The range of the share.
   real(dp), parameter :: LEAST_SHARE = 1.0e-6_dp, LARGEST_SHARE = 1.0_dp

@@ -14,9 +14,9 @@ module fuge_graded_layers_type
   !> Relative error of the surface's displacement, and the number of layers, unless the caller says otherwise.
   real(dp), parameter :: DEFAULT_TOLERANCE = 1.0e-4_dp
   integer, parameter :: DEFAULT_MAX_LAYERS = 2000
-  !> The range of the tolerance: rounding, and no more than a guess.
+  !> The range of the tolerance: below is rounding, above the estimate would be a guess.
   real(dp), parameter :: LEAST_TOLERANCE = 1.0e-10_dp, LARGEST_TOLERANCE = 0.1_dp
-  !> Layers of the first division, before they are halved, and the most by which the next one has more.
+  !> Layers of the first division, before each is halved; the next one has at most this many times as many.
   integer, parameter :: FIRST_COUNT = 8, MOST_GROWTH = 8
   !> The next division aims at this fraction of the tolerance.
   real(dp), parameter :: AIM = 0.8_dp
