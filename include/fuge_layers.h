@@ -78,6 +78,65 @@ int fuge_layered_waves(int layers, const double *thickness, const double *young,
                        const double *poisson, int bonded, double e_star_other, int waves,
                        const double *q, double *compliance, char *message, size_t len);
 
+/* ---- graded bodies -------------------------------------------------------- */
+
+/* The layers of a body whose moduli vary over the depth, for the functions above, with
+ * bonded = 1.  Layers are thin near the surface and where the moduli change fast, and more
+ * and more until the error is at most the tolerance.
+ *   points         in   >= 1
+ *   depth          in   points: from 0, the surface, down; two equal ones are a jump; length
+ *   young          in   points: Young's modulus at these depths, linear between them; below the
+ *                       last one lies a half-space of the last values; the last one may be
+ *                       HUGE_VAL after a jump: a rigid base; force per length^2
+ *   poisson        in   points: Poisson's ratio, likewise; 0 .. 0.5
+ *   tolerance      in   1e-10 .. 0.1: relative error of the displacement of the surface by a wave
+ *                       of pressure, of any length; 1e-3 and 1e-4 take tens and hundreds of layers
+ *   max_layers     in   length of thickness
+ *   layers         out  their number
+ *   thickness      out  max_layers, of which the first `layers` are set
+ *   layer_young    out  max_layers + 1, of which the first layers + 1 are set
+ *   layer_poisson  out  max_layers + 1, likewise
+ *   error          out  estimate of the relative error: a third of the largest difference from
+ *                       half as many layers, because layers are of second order in their
+ *                       thickness; may be NULL
+ * FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for depths, FUGE_ERR_MODULUS, both also
+ * for ratios above 1e8, FUGE_ERR_OPTION for the tolerance, FUGE_ERR_ITERATION_LIMIT if that
+ * takes more than max_layers: the message says how many. */
+int fuge_graded_layers(int points, const double *depth, const double *young,
+                       const double *poisson, double tolerance, int max_layers, int *layers,
+                       double *thickness, double *layer_young, double *layer_poisson,
+                       double *error, char *message, size_t len);
+
+/* ---- effective modulus ---------------------------------------------------- */
+
+/* The half-space on which a rigid flat punch of the radius a is as stiff as on the layered one:
+ * dF/dd = 2 a modulus.  That is the stiffness of a round punch of any profile with this contact
+ * radius too, because it moves on as a flat one.  For moduli 1 : 100 .. 100 : 1 and on a rigid
+ * base it is exact to 4e-6 for thicknesses from 0.1 radii on, to 1e-3 from 0.03 and to 5e-3 from
+ * 0.01 on, and never too large.
+ *   radii          in   their number
+ *   radius         in   radii: of the contact; > 0; length
+ *   modulus        out  radii: effective e_star of the two bodies, from that of the top layer
+ *                       for small contacts to that of the half-space below for large ones
+ * FUGE_ERR_WIDTH for radius <= 0. */
+int fuge_layered_modulus(int layers, const double *thickness, const double *young,
+                         const double *poisson, int bonded, double e_star_other, int radii,
+                         const double *radius, double *modulus, char *message, size_t len);
+
+/* Below which thickness a bonded coating is not felt, and above which the body below it is not.
+ *   young, poisson in   2: of the coating and of the half-space below, whose modulus may be
+ *                       HUGE_VAL: it is rigid
+ *   radius         in   of the contact; > 0; length
+ *   share          in   1e-6 .. 1: the largest relative change of the effective modulus, as above
+ *                       against a rigid body, that counts as not felt
+ *   thin           out  up to this thickness the coating is not felt; 0 on a rigid base, HUGE_VAL
+ *                       if it never is; length; may be NULL
+ *   thick          out  from this thickness on the half-space below is not felt; 0 if it never
+ *                       is; length; may be NULL
+ * FUGE_ERR_WIDTH for the radius, FUGE_ERR_MODULUS, FUGE_ERR_OPTION for the share. */
+int fuge_coating_limits(const double *young, const double *poisson, double radius, double share,
+                        double *thin, double *thick, char *message, size_t len);
+
 #ifdef __cplusplus
 }
 #endif

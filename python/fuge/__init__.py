@@ -14,6 +14,9 @@ How the bodies deform: an operator, whose ``operator @ force`` are displacements
     a matrix, displacement per force        used as it is, or DenseOperator(alpha)
     HalfplaneOperator(n, spacing, e_star)   line contact, equal cells, by FFT
     HalfspaceOperator(nx, ny, dx, dy, e_star)   an area, equal cells, by FFT
+    LayeredHalfplaneOperator, LayeredHalfspaceOperator   the same for coated and layered bodies: Layers
+    graded_layers                           moduli that vary over the depth: GradedLayers
+    coating_limits                          how thin a coating is not felt, how thick it hides the rest: CoatingLimits
     CallbackOperator(n, apply)              a function of your own
     Operator, GridOperator, Cells           the base of all, that of those by FFT, and their cells
     halfplane_matrix, halfspace_matrix, ring_matrix   matrices of cells, rectangles, and rings about an axis
@@ -140,6 +143,15 @@ from fuge.halfspace import (
     hertz_ellipse as hertz_ellipse,
     ring_displacement as ring_displacement,
     ring_matrix as ring_matrix,
+)
+from fuge.layers import (
+    CoatingLimits as CoatingLimits,
+    GradedLayers as GradedLayers,
+    LayeredHalfplaneOperator as LayeredHalfplaneOperator,
+    LayeredHalfspaceOperator as LayeredHalfspaceOperator,
+    Layers as Layers,
+    coating_limits as coating_limits,
+    graded_layers as graded_layers,
 )
 from fuge.links import Links as Links, remove_member as remove_member
 from fuge.mesh import Mesh as Mesh, join_meshes as join_meshes, read_mesh as read_mesh

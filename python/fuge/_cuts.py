@@ -91,8 +91,9 @@ def cut_through(
     if not contact.cells.homogeneous:
         raise error(
             Status.ERR_UNSUPPORTED,
-            "fuge.plot.stress draws the stresses in a homogeneous half-plane or half-space, but the operator is a "
-            "CallbackOperator, whose body is only close to one: draw the pressure by fuge.plot.map or fuge.plot.line",
+            "fuge.plot.stress draws the stresses in a homogeneous half-plane or half-space, but this body has layers, "
+            "or is that of a CallbackOperator, which is only close to one: draw the pressure by fuge.plot.map or "
+            "fuge.plot.line",
         )
     return _cut_through_cells(contact, contact.cells, poisson, along, below)
 

@@ -31,6 +31,8 @@ _FUNCTIONS = {
     "operator_callback": "CallbackOperator",
     "operator_halfplane": "HalfplaneOperator",
     "operator_halfspace": "HalfspaceOperator",
+    "operator_layered_halfplane": "LayeredHalfplaneOperator",
+    "operator_layered_halfspace": "LayeredHalfspaceOperator",
     "solve": "solve",
     "condense": "condense",
     "follow_path": "follow_path",

@@ -23,7 +23,8 @@ class Cells:
     element : {'centre', 'mean', 'hat'}
         What a force and a displacement stand for, as in :func:`halfplane_matrix`.
     homogeneous : bool
-        The body is a half-plane or a half-space; False for a callback operator that is only close to one.
+        The body is a half-plane or a half-space; False for layers, and for a callback operator that is only
+        close to one.
     """
 
     shape: tuple[int, ...]

@@ -6,7 +6,7 @@ module fuge_layer_stack
   implicit none
   private
 
-  public :: layer_number
+  public :: bonded_stack, layer_number
 
   !> Layers on a half-space or a rigid base, from the surface down.
   type, extends(wave_symbol), public :: layer_stack
@@ -26,6 +26,20 @@ module fuge_layer_stack
   end type layer_stack
 
 contains
+
+  !> The stack of bonded layers: `thickness` (layers), Young's moduli and Poisson's ratios (layers + 1), as checked by
+  !> the caller.
+  pure function bonded_stack(thickness, young, poisson) result(stack)
+    real(dp), intent(in) :: thickness(:), young(:), poisson(:)
+    type(layer_stack) :: stack
+
+    allocate (stack%thickness(size(thickness)), stack%bonded(size(thickness)), stack%poisson(size(young)), &
+              stack%shear(size(young)))
+    stack%thickness = thickness
+    stack%bonded = .true.
+    stack%poisson = poisson
+    stack%shear = young/young(1)*(1.0_dp + poisson(1))/(1.0_dp + poisson)
+  end function bonded_stack
 
   !> Is it more than a half-space?
   elemental function has_layers(self) result(has)

@@ -11,6 +11,8 @@ module fuge_layered_body_type
   implicit none
   private
 
+  public :: check_layers
+
   !> The largest ratio of two thicknesses or moduli.
   real(dp), parameter :: LARGEST_RATIO = 1.0e8_dp
   !> Long waves are those of the substrate to rounding, or on a rigid base negligible, from this many times the length
