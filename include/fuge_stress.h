@@ -210,14 +210,18 @@ int fuge_layered_halfspace_displacement_grid(int layers, const double *thickness
                                              double *displacement, char *message, size_t len);
 
 /* The largest stresses of the surface or of an interface, and the cells above them. */
-typedef struct {
-  double depth;
-  /* The largest principal stress, tension positive, above the interface and below it; at the
-   * surface, and at a rigid base, both are those in the layers. */
-  double tension_above, tension_below;
-  /* The largest shear stress between both sides, and the largest stress zz, which opens it. */
-  double shear, opening;
-  int cell_above, cell_below, cell_of_shear, cell_of_opening;
+typedef struct fuge_interface_stress {
+  double depth;                 /* length */
+  double tension_above;         /* the largest principal stress, tension positive, above the
+                                   interface and below it; at the surface, and at a rigid base,
+                                   both are those in the layers; force per length^2 */
+  double tension_below;
+  double shear;                 /* the largest shear stress between both sides */
+  double opening;               /* the largest stress zz, which opens the interface */
+  int cell_above;
+  int cell_below;
+  int cell_of_shear;
+  int cell_of_opening;
 } fuge_interface_stress;
 
 /* Those of the surface and of all interfaces below a grid.

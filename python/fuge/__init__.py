@@ -62,6 +62,9 @@ Stresses and displacements in the bodies
     halfplane_displacement, halfspace_displacement, ring_interior_displacement
     halfplane_stress_grid, halfspace_stress_grid                        below the cells of a grid, at depths, by FFT
     halfplane_displacement_grid, halfspace_displacement_grid
+    layered_halfplane_stress_grid, layered_halfspace_stress_grid        in layers
+    layered_halfplane_displacement_grid, layered_halfspace_displacement_grid
+    layered_halfplane_interfaces, layered_halfspace_interfaces          what coatings fail by: InterfaceStress
     halfplane_tensor, round_tensor                                      all components
     von_mises, tresca, mean_stress, principal_stresses                  of tensors
     halfplane_peak, halfspace_peak, ring_peak                           the largest stress: StressPeak
@@ -143,6 +146,15 @@ from fuge.halfspace import (
     hertz_ellipse as hertz_ellipse,
     ring_displacement as ring_displacement,
     ring_matrix as ring_matrix,
+)
+from fuge.layer_stress import (
+    InterfaceStress as InterfaceStress,
+    layered_halfplane_displacement_grid as layered_halfplane_displacement_grid,
+    layered_halfplane_interfaces as layered_halfplane_interfaces,
+    layered_halfplane_stress_grid as layered_halfplane_stress_grid,
+    layered_halfspace_displacement_grid as layered_halfspace_displacement_grid,
+    layered_halfspace_interfaces as layered_halfspace_interfaces,
+    layered_halfspace_stress_grid as layered_halfspace_stress_grid,
 )
 from fuge.layers import (
     CoatingLimits as CoatingLimits,

@@ -158,6 +158,11 @@ def struct(name: str) -> Any:
     return STRUCTS[name]()
 
 
+def struct_array(name: str, count: int) -> Any:
+    """`count` structs one after the other, with all members zero."""
+    return (STRUCTS[name] * count)()
+
+
 def version() -> str:
     """Version of the library, such as '0.1.0'; ImportError if it is not that of the headers."""
     found = str(function("fuge_version")().decode())

@@ -45,7 +45,8 @@ class Layers:
     bonded: bool = True
     e_star_other: float = np.inf
 
-    def _arguments(self) -> list[Any]:
+    def arguments(self) -> list[Any]:
+        """The arguments of C functions that take layers: their number to e_star_other."""
         thickness = _arrays.vector("thickness", np.atleast_1d(_arrays.array("thickness", self.thickness)))
         materials = thickness.size + 1
         return [
@@ -60,7 +61,7 @@ class Layers:
     @property
     def e_star(self) -> float:
         """The modulus of short waves; force per length^2."""
-        _, _, young, poisson, _, other = self._arguments()
+        _, _, young, poisson, _, other = self.arguments()
         return float(1.0 / ((1.0 - poisson[0] ** 2) / young[0] + 1.0 / other))
 
     def effective_modulus(self, radius: ArrayLike) -> NDArray[np.float64]:
@@ -87,7 +88,7 @@ class Layers:
         """
         radii = _arrays.doubles("radius", radius)
         modulus = np.empty(radii.shape)
-        arguments = [*self._arguments(), radii.size, radii, modulus]
+        arguments = [*self.arguments(), radii.size, radii, modulus]
         call("fuge_layered_modulus", *arguments, shapes={"radius": radii.shape})
         return modulus
 
@@ -105,7 +106,7 @@ class Layers:
         """
         waves = _arrays.doubles("q", q)
         compliance = np.empty(waves.shape)
-        call("fuge_layered_waves", *self._arguments(), waves.size, waves, compliance)
+        call("fuge_layered_waves", *self.arguments(), waves.size, waves, compliance)
         return compliance
 
     def halfplane_matrix(
@@ -117,7 +118,7 @@ class Layers:
         alpha = np.empty((n, n), order="F")
         widths = _arrays.spread("width", width, n)
         cells = [n, centres, widths, ELEMENTS.number(element), int(bool(symmetric))]
-        call("fuge_layered_halfplane_matrix", *self._arguments(), *cells, alpha, n)
+        call("fuge_layered_halfplane_matrix", *self.arguments(), *cells, alpha, n)
         return alpha
 
     def halfspace_matrix(
@@ -145,7 +146,7 @@ class Layers:
             int(bool(symmetric_x)),
             int(bool(symmetric_y)),
         ]
-        call("fuge_layered_halfspace_matrix", *self._arguments(), *cells, alpha, n)
+        call("fuge_layered_halfspace_matrix", *self.arguments(), *cells, alpha, n)
         return alpha
 
     def ring_matrix(self, radius: ArrayLike) -> NDArray[np.float64]:
@@ -153,7 +154,7 @@ class Layers:
         radii = _arrays.vector("radius", radius)
         n = radii.size - 1
         alpha = np.empty((max(n, 0), max(n, 0)), order="F")
-        call("fuge_layered_ring_matrix", *self._arguments(), n, radii, alpha, n)
+        call("fuge_layered_ring_matrix", *self.arguments(), n, radii, alpha, n)
         return alpha
 
 
@@ -302,7 +303,7 @@ class LayeredHalfplaneOperator(HalfplaneOperator):
         self.layers = layers
         width = _arrays.number("spacing", spacing)
         kind = [ELEMENTS.number(element), BOUNDARIES.number(boundary)]
-        self._create("fuge_operator_layered_halfplane", self.n, width, *layers._arguments(), *kind)
+        self._create("fuge_operator_layered_halfplane", self.n, width, *layers.arguments(), *kind)
         self.e_star = layers.e_star
         self.cells = replace(Cells((self.n,), (width,), boundary, element), homogeneous=False)
 
@@ -344,7 +345,7 @@ class LayeredHalfspaceOperator(HalfspaceOperator):
         spacing = _arrays.number("spacing_x", spacing_x), _arrays.number("spacing_y", spacing_y)
         self.layers = layers
         kind = [AREA_ELEMENTS.number(element), AREA_BOUNDARIES.number(boundary)]
-        self._create("fuge_operator_layered_halfspace", columns, rows, *spacing, *layers._arguments(), *kind)
+        self._create("fuge_operator_layered_halfspace", columns, rows, *spacing, *layers.arguments(), *kind)
         self.n = columns * rows
         self.grid = (rows, columns)
         self.e_star = layers.e_star

@@ -18,7 +18,8 @@ from fuge.operators import AREA_BOUNDARIES, BOUNDARIES, AreaBoundary, Boundary
 from fuge.stress import elasticity
 
 
-def _line(spacing: float, force: ArrayLike, element: Element, boundary: Boundary) -> list[Any]:
+def line_arguments(spacing: float, force: ArrayLike, element: Element, boundary: Boundary) -> list[Any]:
+    """The arguments of the cells of a line, and of its forces."""
     forces = _arrays.vector("force", force)
     return [
         forces.size,
@@ -29,9 +30,10 @@ def _line(spacing: float, force: ArrayLike, element: Element, boundary: Boundary
     ]
 
 
-def _area(
+def area_arguments(
     spacing_x: float, spacing_y: float, force: ArrayLike, boundary: AreaBoundary
 ) -> tuple[tuple[int, int], list[Any]]:
+    """The shape of a grid, and the arguments of its cells and forces."""
     forces = _arrays.doubles("force", force, ("ny", "nx"))
     ny, nx = forces.shape
     return (ny, nx), [
@@ -76,7 +78,7 @@ def halfplane_stress_grid(
     ndarray, shape (d, n, 3)
         xx, zz, xz below each cell at each depth; force per length^2.
     """
-    arguments = _line(spacing, force, element, boundary)
+    arguments = line_arguments(spacing, force, element, boundary)
     return _at_depths("fuge_halfplane_stress_grid", arguments, depth, (arguments[0],), 3)
 
 
@@ -95,7 +97,7 @@ def halfplane_displacement_grid(
 
     Parameters are those of :func:`halfplane_stress_grid` and of :func:`plane_modulus`.
     """
-    arguments = _line(spacing, force, element, boundary) + elasticity(young, poisson, plane_state)
+    arguments = line_arguments(spacing, force, element, boundary) + elasticity(young, poisson, plane_state)
     return _at_depths("fuge_halfplane_displacement_grid", arguments, depth, (arguments[0],), 2)
 
 
@@ -127,7 +129,7 @@ def halfspace_stress_grid(
     ndarray, shape (d, ny, nx, 6)
         xx, yy, zz, yz, xz, xy below each cell at each depth; force per length^2.
     """
-    grid, arguments = _area(spacing_x, spacing_y, force, boundary)
+    grid, arguments = area_arguments(spacing_x, spacing_y, force, boundary)
     arguments.append(_arrays.number("poisson", poisson))
     return _at_depths("fuge_halfspace_stress_grid", arguments, depth, grid, 6)
 
@@ -145,6 +147,6 @@ def halfspace_displacement_grid(
 
     Parameters are those of :func:`halfspace_stress_grid`, and Young's modulus of the body.
     """
-    grid, arguments = _area(spacing_x, spacing_y, force, boundary)
+    grid, arguments = area_arguments(spacing_x, spacing_y, force, boundary)
     arguments += [_arrays.number("young", young), _arrays.number("poisson", poisson)]
     return _at_depths("fuge_halfspace_displacement_grid", arguments, depth, grid, 3)
