@@ -24,9 +24,11 @@ module fuge_interface_peaks
     !> The largest principal stress, tension positive, above the interface and below it; at the surface, and at a rigid
     !> base, both are those in the layers.
     real(dp) :: tension_above = 0.0_dp, tension_below = 0.0_dp
+    !> Below which cells they are.
     integer :: cell_above = 0, cell_below = 0
     !> The largest shear stress between both sides, and the largest stress that opens the interface, zz.
     real(dp) :: shear = 0.0_dp, opening = 0.0_dp
+    !> Below which cells they are.
     integer :: cell_of_shear = 0, cell_of_opening = 0
   end type fuge_interface_stress
 
