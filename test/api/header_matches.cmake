@@ -1,6 +1,6 @@
 # cmake -DINCLUDE_DIR=include -DMPI_HEADER=fuge_mpi.h -DSOURCES=src -P header_matches.cmake
 #
-# Fails with the names where the C headers and the sources differ. Each of the six components of SOURCES/components.txt
+# Fails with the names where the C headers and the sources differ. Each of the components of SOURCES/components.txt
 # has a header fuge_<component>.h. It declares the functions that the C files of the component define and the constants
 # of its modules, no others, and includes headers of components that it may use. fuge.h includes all of them.
 cmake_minimum_required(VERSION 3.20)
