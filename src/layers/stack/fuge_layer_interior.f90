@@ -17,6 +17,9 @@ module fuge_layer_interior
 
   public :: cut_at
 
+  !> Depths that differ by less are the same.
+  real(dp), parameter :: ROUNDING = 16.0_dp*epsilon(1.0_dp)
+
   !> The numbers Z, X, N, tt/p, V and U of a wave.
   integer, parameter, public :: ZZ = 1, NZ = 2, NN = 3, TT = 4, ALONG = 5, DOWN = 6
 
@@ -38,7 +41,7 @@ module fuge_layer_interior
 
 contains
 
-  !> The body `stack` at the `depth` >= 0: at an interface in the layer above it, or `below`.
+  !> The body `stack` at the `depth` >= 0: at an interface, to rounding, in the layer above it, or `below`.
   pure function cut_at(stack, depth, below) result(cut)
     type(layer_stack), intent(in) :: stack
     real(dp), intent(in) :: depth
@@ -48,12 +51,10 @@ contains
     integer :: k, layers
 
     layers = size(stack%thickness)
-    bottom = 0.0_dp
     top = 0.0_dp
     do k = 1, layers
-      top = bottom
       bottom = sum(stack%thickness(:k))
-      if (depth < bottom .or. (.not. depth > bottom .and. .not. below)) exit
+      if (is_at(depth, bottom) .and. .not. below .or. depth < bottom .and. .not. is_at(depth, bottom)) exit
       top = bottom
     end do
     cut%layer = k
@@ -61,20 +62,29 @@ contains
     cut%shear = stack%shear(k)
     cut%poisson = stack%poisson(k)
     cut%stack = stack
-    cut%above = k - 1
-    if (.not. depth > top) then
+    cut%above = k
+    if (is_at(depth, top)) then
+      cut%above = k - 1
       cut%below = k > 1
-    else if (k <= layers .and. .not. depth < bottom) then
-      cut%above = k
-    else
-      cut%above = k
-      cut%stack%thickness = [stack%thickness(:k - 1), depth - top, stack%thickness(k:)]
-      if (k <= layers) cut%stack%thickness(k + 1) = bottom - depth
-      cut%stack%shear = [stack%shear(:k), stack%shear(k:)]
-      cut%stack%poisson = [stack%poisson(:k), stack%poisson(k:)]
-      cut%stack%bonded = [stack%bonded(:k - 1), .true., stack%bonded(k:)]
+      return
     end if
+    if (k <= layers) then
+      if (is_at(depth, bottom)) return
+    end if
+    cut%stack%thickness = [stack%thickness(:k - 1), depth - top, stack%thickness(k:)]
+    if (k <= layers) cut%stack%thickness(k + 1) = bottom - depth
+    cut%stack%shear = [stack%shear(:k), stack%shear(k:)]
+    cut%stack%poisson = [stack%poisson(:k), stack%poisson(k:)]
+    cut%stack%bonded = [stack%bonded(:k - 1), .true., stack%bonded(k:)]
   end function cut_at
+
+  !> Is the `depth` that of an `interface`, which is a sum of thicknesses?
+  pure function is_at(depth, interface)
+    real(dp), intent(in) :: depth, interface
+    logical :: is_at
+
+    is_at = abs(depth - interface) <= ROUNDING*interface
+  end function is_at
 
   !> Z, X, N, tt/p, V and U for a wave `q` > 0.
   pure function response(self, q)
