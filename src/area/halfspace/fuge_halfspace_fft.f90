@@ -3,8 +3,8 @@
 module fuge_halfspace_fft
   use fuge_grid_plan, only: grid_plan
   use fuge_grid_operator_type, only: grid_operator
-  use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, computes_later, count_coarser, halfspace_grid, &
-    is_large, least_magnitude, periodic
+  use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, computes_later, count_coarser, &
+    halfspace_grid, is_large, least_magnitude, periodic
   use fuge_halfspace_kernels, only: bytes_in_slices, kernel_store, multiply_in_slices
   use fuge_halfspace_spectra, only: bytes_needed
   use fuge_kept_rows, only: drop_rows
@@ -297,11 +297,10 @@ contains
     if (computes_later(self%surface)) then
       ! The certificate needs those in double precision, on a large grid none.
       if (.not. is_large(self%surface)) call require_kernels(self, status)
-      call self%store%require_single(self%surface, self%plan)
+      call self%store%require_single(self%surface, self%plan, single)
+    else
+      single = self%store%kernels%has_single()
     end if
-    associate (kernels => self%store%kernels)
-      single = kernels%single_influence%is_set() .and. kernels%single_inverse%is_set()
-    end associate
   end function has_single
 
   !> `apply` in single precision.
