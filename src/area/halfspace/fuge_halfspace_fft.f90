@@ -310,11 +310,10 @@ contains
     if (computes_later(self%surface)) then
       ! The certificate needs those in double precision, on a large grid none.
       if (.not. is_large(self%surface)) call require_kernels(self, status)
-      call self%store%require_single(self%surface, self%plan)
+      call self%store%require_single(self%surface, self%plan, single)
+    else
+      single = self%store%kernels%has_single()
     end if
-    associate (kernels => self%store%kernels)
-      single = kernels%single_influence%is_set() .and. kernels%single_inverse%is_set()
-    end associate
   end function has_single
 
   !> `apply` in single precision.

@@ -7,7 +7,7 @@ module fuge_halfspace_kernels
   use fuge_halfspace_grid, only: halfspace_grid
   use fuge_halfspace_spectra, only: bytes_needed, compute_spectra, grid_values
   use fuge_kinds, only: dp
-  use fuge_locks, only: lock, unlock, LOCK_GRIDS
+  use fuge_locks, only: lock, unlock, LOCK_KERNELS
   use fuge_memory, only: check_memory
   use fuge_single_grid_convolution, only: round_kernel, single_kernel => grid_kernel
   use fuge_sliced_convolution, only: convolve_in_slices
@@ -29,6 +29,7 @@ module fuge_halfspace_kernels
     logical :: rounded = .false.
   contains
     procedure :: has_double
+    procedure :: has_single
   end type halfspace_kernels
 
   !> The kernels that an operator owns; a bitwise copy of it does not.
@@ -102,13 +103,13 @@ contains
     call self%create(status)
     if (status /= 0) return
     ! Another thread may just be computing those of the source.
-    call lock(LOCK_GRIDS)
+    call lock(LOCK_KERNELS)
     call self%kernels%influence%copy_from(source%kernels%influence, status)
     if (status == 0) call self%kernels%inverse%copy_from(source%kernels%inverse, status)
     if (status == 0) call self%kernels%single_influence%copy_from(source%kernels%single_influence, status)
     if (status == 0) call self%kernels%single_inverse%copy_from(source%kernels%single_inverse, status)
     self%kernels%rounded = source%kernels%rounded
-    call unlock(LOCK_GRIDS)
+    call unlock(LOCK_KERNELS)
     if (status /= 0) call self%clear()
   end subroutine copy_from
 
@@ -127,22 +128,23 @@ contains
     integer, intent(out) :: status
 
     status = 0
-    call lock(LOCK_GRIDS)
+    call lock(LOCK_KERNELS)
     if (.not. self%kernels%has_double()) call compute_later(self%kernels, grid, plan, status)
-    call unlock(LOCK_GRIDS)
+    call unlock(LOCK_KERNELS)
   end subroutine require_double
 
   !> Compute the kernels in single precision unless that was done, or their numbers were out of range: from those in
   !> double precision, which are not kept if they are not there. Several threads may ask at once. Where memory is too
-  !> short for these, there are none this time.
-  subroutine require_single(self, grid, plan)
+  !> short for these, there are none this time: `has`, are there any?
+  subroutine require_single(self, grid, plan, has)
     class(kernel_store), intent(in) :: self
     type(halfspace_grid), intent(in) :: grid
     type(grid_plan), intent(in) :: plan
+    logical, intent(out) :: has
     type(halfspace_kernels) :: double
     integer :: status
 
-    call lock(LOCK_GRIDS)
+    call lock(LOCK_KERNELS)
     associate (kernels => self%kernels)
       if (.not. kernels%rounded) then
         status = 0
@@ -155,8 +157,9 @@ contains
         end if
         kernels%rounded = status == 0
       end if
+      has = kernels%has_single()
     end associate
-    call unlock(LOCK_GRIDS)
+    call unlock(LOCK_KERNELS)
   end subroutine require_single
 
   !> Are there kernels in double precision? The caller holds the lock where other threads may compute them.
@@ -166,6 +169,14 @@ contains
 
     has = self%influence%is_set() .and. self%inverse%is_set()
   end function has_double
+
+  !> As has_double.
+  function has_single(self) result(has)
+    class(halfspace_kernels), intent(in) :: self
+    logical :: has
+
+    has = self%single_influence%is_set() .and. self%single_inverse%is_set()
+  end function has_single
 
   !> Compute the kernels in double precision of an operator that did without so far, if the machine has the memory.
   subroutine compute_later(kernels, grid, plan, status)

@@ -3,7 +3,7 @@
 
 #include <windows.h>
 
-static SRWLOCK locks[5] = {SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT};
+static SRWLOCK locks[6] = {SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT, SRWLOCK_INIT};
 
 void fuge_lock(int which) { AcquireSRWLockExclusive(&locks[which]); }
 
@@ -13,26 +13,27 @@ void fuge_unlock(int which) { ReleaseSRWLockExclusive(&locks[which]); }
 
 #include <pthread.h>
 
-static pthread_mutex_t locks[5] = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER,
-                                   PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER};
+static pthread_mutex_t locks[6] = {PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER,
+                                   PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER, PTHREAD_MUTEX_INITIALIZER};
 static pthread_once_t fork_once = PTHREAD_ONCE_INIT;
 
 /* A process waits with its fork until no thread holds a lock: a child has none of those threads, and what they were
- * changing would stay half done.  Plans are made while the grids are locked, hence those first. */
-static const int order[5] = {2, 0, 1, 3, 4};
+ * changing would stay half done.  Kernels are computed while the grids are locked, and plans are made meanwhile, hence
+ * those first. */
+static const int order[6] = {2, 5, 0, 1, 3, 4};
 
 static void acquire_all(void)
 {
   int k;
 
-  for (k = 0; k < 5; ++k) pthread_mutex_lock(&locks[order[k]]);
+  for (k = 0; k < 6; ++k) pthread_mutex_lock(&locks[order[k]]);
 }
 
 static void release_all(void)
 {
   int k;
 
-  for (k = 4; k >= 0; --k) pthread_mutex_unlock(&locks[order[k]]);
+  for (k = 5; k >= 0; --k) pthread_mutex_unlock(&locks[order[k]]);
 }
 
 static void prepare_forks(void) { pthread_atfork(acquire_all, release_all, release_all); }

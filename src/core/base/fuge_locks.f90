@@ -16,6 +16,8 @@ module fuge_locks
   integer(c_int), parameter, public :: LOCK_GRIDS = 2
   !> Buffers that an operator keeps and its products share; held for a moment only.
   integer(c_int), parameter, public :: LOCK_BUFFERS = 4
+  !> Kernels that operators compute when they are first needed, perhaps while the grids are locked.
+  integer(c_int), parameter, public :: LOCK_KERNELS = 5
 
   interface
     !> Wait until no other thread holds the lock `which`, then acquire it.

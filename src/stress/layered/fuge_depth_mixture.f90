@@ -19,12 +19,12 @@ module fuge_depth_mixture
 
   !> Step of the rule in log t.
   real(dp), parameter, public :: STEP = 0.09_dp
-  !> The numbers of Z, X/q, N, tt/p, U/q, (N - tt/p)/q**2 and -V/q**2, and the powers m of q for each.
-  integer, parameter, public :: OF_ZZ = 1, OF_SLOPE = 2, OF_NN = 3, OF_TT = 4, OF_DOWN = 5, OF_DIFFERENCE = 6, &
+  !> The numbers of Z, N, tt/p, X/q, U/q, (N - tt/p)/q**2 and -V/q**2, and the powers m of q for each.
+  integer, parameter, public :: OF_ZZ = 1, OF_NN = 2, OF_TT = 3, OF_SLOPE = 4, OF_DOWN = 5, OF_DIFFERENCE = 6, &
     OF_ALONG = 7, FUNCTIONS = 7
-  integer, parameter, public :: POWERS(FUNCTIONS) = [0, 0, 0, 0, 1, 2, 2]
+  integer, parameter, public :: POWERS(FUNCTIONS) = [0, 0, 0, 1, 1, 2, 2]
   !> The first and the last of the functions with m = 0, 1, 2.
-  integer, parameter :: FIRST_OF(0:2) = [1, 5, 6], LAST_OF(0:2) = [4, 5, 7]
+  integer, parameter :: FIRST_OF(0:2) = [1, 4, 6], LAST_OF(0:2) = [3, 5, 7]
   !> The first t is this fraction of the depth from which waves come; from that many times its inverse on, q counts not.
   real(dp), parameter :: FIRST = 1.0_dp/14.0_dp, SHORTEST_WAVE = 40.0_dp
   !> Waves are long from this many times the depth, or the thickness of all layers times the ratio of moduli, on. The
@@ -102,6 +102,7 @@ contains
     do k = 1, size(q)
       values(:, k) = functions_of(cut, depth, q(k))
     end do
+    weights(count + 1, :) = 0.0_dp
     weights(count + 1, OF_DOWN) = STEP*2.0_dp/sqrt(PI)*longest_wave_down(cut)
     do m = 0, 2
       if (stat == 0) call fit_powers(mixture%first, m, q(::2), values(FIRST_OF(m):LAST_OF(m), ::2), &
@@ -153,19 +154,19 @@ contains
       response(ALONG) = response(ALONG) + (1.0_dp - 2.0_dp*cut%poisson - x)*decay
       response(DOWN) = response(DOWN) - (2.0_dp*(1.0_dp - cut%poisson) + x)*decay
     end if
-    values = [response(ZZ), response(NZ)/q, response(NN), response(TT), response(DOWN), response(NN) - response(TT), &
+    values = [response(ZZ), response(NN), response(TT), response(NZ), response(DOWN), response(NN) - response(TT), &
               -response(ALONG)]
   end function functions_of
 
-  !> Weights of the functions with the power `m`, by least squares. `values` (functions, waves). With m = 1 the limit of
-  !> the weights is known: it is in `weights` already.
+  !> Weights of the functions with the power `m`, by least squares. `values` (functions, waves). With m = 1 the limits
+  !> of the weights are known: they are in `weights` already.
   subroutine fit_powers(first, m, q, values, weights, stat)
     integer, intent(in) :: first, m
     real(dp), intent(in) :: q(:), values(:, :)
     real(dp), intent(inout) :: weights(:, :)
     integer, intent(out) :: stat
     real(dp), allocatable :: matrix(:, :), right(:, :), work(:)
-    real(dp) :: limit, ratio, size_of_work(1), x
+    real(dp) :: limit(size(weights, 2)), ratio, size_of_work(1), x
     integer, allocatable :: pivot(:)
     integer :: a, count, k, next, rank, rows
 
@@ -177,8 +178,7 @@ contains
     matrix = 0.0_dp
     right = transpose(values)
     a = 1 + mod(m, 2)
-    limit = 0.0_dp
-    if (m == 1) limit = weights(count + 1, 1)
+    limit = weights(count + 1, :)
     do k = 1, count
       matrix(:, k) = term(m, q*exp(STEP*real(first + k - 1, dp)))
     end do

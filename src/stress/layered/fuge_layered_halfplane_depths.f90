@@ -198,14 +198,9 @@ contains
     type(depth_mixture), intent(in) :: mixture
     integer, intent(in) :: c
     real(dp), allocatable :: values(:)
-    integer :: k
 
     values = sums%in_plane(mixture, FUNCTION_OF(c), IS_ODD(c), 1)
-    if (FUNCTION_OF(c) == OF_ALONG) then
-      values = values + sums%line_slope(mixture, 1)*[(k*sums%spacing(1), k=0, size(values) - 1)]
-    else if (FUNCTION_OF(c) == OF_DOWN) then
-      values = values + sums%line_datum(mixture, 1, 2.0_dp*size(values)*sums%spacing(1))
-    end if
+    if (FUNCTION_OF(c) == OF_DOWN) values = values + sums%line_datum(mixture, 1, 2.0_dp*size(values)*sums%spacing(1))
   end function influence
 
   !> What the mean pressure adds on a periodic surface; zz of a half-plane is there already.

@@ -225,22 +225,18 @@ contains
     end select
   end subroutine fill_factor
 
-  !> Of a surface that is periodic along one direction: the mean of component `c` along it, at the cells across. Of a
-  !> free one what is the same everywhere.
+  !> Of a surface that is periodic along one direction: the mean of component `c` along it, at the cells across.
   function mean_of_rows(work, mixture, c) result(mean)
     type(grid_work), intent(in) :: work
     type(depth_mixture), intent(in) :: mixture
     integer, intent(in) :: c
     real(dp), allocatable :: mean(:)
-    integer :: across, direction, k
+    integer :: across, direction
 
     direction = merge(1, 2, work%grid%boundary == FUGE_PERIODIC_X)
     across = 3 - direction
     allocate (mean(work%grid%cells(across)), source=0.0_dp)
-    if (work%grid%boundary == FUGE_FREE) then
-      if (c == 9) mean = work%sums%far_displacement(mixture)
-      return
-    end if
+    if (work%grid%boundary == FUGE_FREE) return
     if (c == across) then
       mean = work%sums%in_plane(mixture, OF_NN, .false., across)
     else if (c == direction) then
@@ -250,8 +246,7 @@ contains
     else if (c == 6 - across) then
       mean = work%sums%in_plane(mixture, OF_SLOPE, .true., across)
     else if (c == 6 + across) then
-      mean = work%sums%in_plane(mixture, OF_ALONG, .true., across) &
-             + work%sums%line_slope(mixture, across)*[(k*work%grid%spacing(across), k=0, size(mean) - 1)]
+      mean = work%sums%in_plane(mixture, OF_ALONG, .true., across)
     else if (c == 9) then
       mean = work%sums%in_plane(mixture, OF_DOWN, .false., across) &
              + work%sums%line_datum(mixture, across, 2.0_dp*size(mean)*work%grid%spacing(across))

@@ -3,7 +3,7 @@
 module fuge_mixture_sums
   use fuge_cell_gaussians, only: circle_work, fill_gaussian_circle, fill_gaussian_places, fill_gaussian_waves
   use fuge_constants, only: PI
-  use fuge_depth_mixture, only: depth_mixture, OF_ALONG, OF_DOWN, POWERS, STEP
+  use fuge_depth_mixture, only: depth_mixture, OF_DOWN, POWERS, STEP
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemm
   implicit none
@@ -11,7 +11,7 @@ module fuge_mixture_sums
 
   !> exp(-x**2) is less than rounding.
   real(dp), parameter :: NEGLIGIBLE = 6.3_dp
-  !> Gaussians longer than this many times all distances are the same everywhere to rounding of their sum.
+  !> Gaussians longer than this many times all distances are the first term of their series in 1/t to rounding.
   real(dp), parameter :: FAR = 1.0e6_dp
 
   !> So many lengths beyond the last weight are a sum to rounding.
@@ -35,9 +35,7 @@ module fuge_mixture_sums
     procedure :: prepare
     procedure :: add_product
     procedure :: in_plane
-    procedure :: far_displacement
     procedure :: line_datum
-    procedure :: line_slope
   end type mixture_sums
 
 contains
@@ -120,10 +118,49 @@ contains
     end do
     call dgemm('N', 'T', size(factor, 1), size(factor, 2), nodes, 1.0_dp, self%weighted, size(factor, 1), &
                self%along_y(:, :, power(2)), size(factor, 2), 1.0_dp, factor, size(factor, 1))
+    if (all(self%kind == PLACES_OF)) call add_longer(self, mixture, function, power, factor)
   end subroutine add_product
 
+  !> What all longer lengths add on a free surface: t**-2/(4 pi) of a cell's area and, for each slope, -x/(2 t**2) times
+  !> that, for each second one 1/(2 t**2).
+  subroutine add_longer(sums, mixture, function, power, factor)
+    type(mixture_sums), intent(in) :: sums
+    type(depth_mixture), intent(in) :: mixture
+    integer, intent(in) :: function, power(2)
+    real(dp), intent(inout) :: factor(0:, 0:)
+    real(dp) :: rest
+    integer :: j
+
+    if (all(power == 1)) return
+    rest = product(sums%spacing)/(4.0_dp*PI)*sum_beyond(sums, mixture, function, POWERS(function) &
+                                                         - merge(2, 4, sum(power) == 0), 0.0_dp)
+    if (sum(power) > 0) rest = 0.5_dp*rest
+    do j = 0, ubound(factor, 2)
+      if (power(1) == 1) then
+        factor(:, j) = factor(:, j) - rest*distances(size(factor, 1), sums%spacing(1))
+      else if (power(2) == 1) then
+        factor(:, j) = factor(:, j) - rest*(j*sums%spacing(2))
+      else
+        factor(:, j) = factor(:, j) + rest
+      end if
+    end do
+  end subroutine add_longer
+
+  !> Of 0, 1, .. `count` - 1 cells.
+  pure function distances(count, spacing) result(length)
+    integer, intent(in) :: count
+    real(dp), intent(in) :: spacing
+    real(dp) :: length(count)
+    integer :: k
+
+    do k = 1, count
+      length(k) = (k - 1)*spacing
+    end do
+  end function distances
+
   !> What unit pressure on whole rows of cells gives at the cells across them, or waves of it: of a `function` of the
-  !> mixture, and if `slope` the slope of it. The rows lie across `direction`.
+  !> mixture, and if `slope` the slope of it. The rows lie across `direction`. The displacement along z lacks its datum
+  !> (`line_datum`).
   function in_plane(self, mixture, function, slope, direction) result(values)
     class(mixture_sums), intent(in) :: self
     type(depth_mixture), intent(in) :: mixture
@@ -143,19 +180,19 @@ contains
         values = values + weight*self%along_y(:, k, order)
       end if
     end do
+    if (self%kind(direction) /= PLACES_OF) return
+    ! Longer lengths: 1/(2 sqrt(pi) t) of a cell's width, and the slope of that.
+    weight = self%spacing(direction)/(2.0_dp*sqrt(PI))
+    if (slope) then
+      values = values - 0.5_dp*weight*sum_beyond(self, mixture, function, POWERS(function) - 3, 0.0_dp) &
+               *distances(size(values), self%spacing(direction))
+    else if (function /= OF_DOWN) then
+      values = values + weight*sum_beyond(self, mixture, function, POWERS(function) - 1, 0.0_dp)
+    end if
   end function in_plane
 
-  !> What all longer lengths add to the displacement along z under unit pressure on a cell, everywhere.
-  pure function far_displacement(self, mixture) result(displacement)
-    class(mixture_sums), intent(in) :: self
-    type(depth_mixture), intent(in) :: mixture
-    real(dp) :: displacement
-
-    displacement = product(self%spacing)/(4.0_dp*PI)*sum_beyond(self, mixture, OF_DOWN, -1, 0.0_dp)
-  end function far_displacement
-
-  !> What they add to that in plane strain, under unit pressure on a cell along `direction`: so that far away the
-  !> displacement would be zero at the distance `reach`.
+  !> What all longer lengths add to the displacement along z in plane strain, under unit pressure on a cell along
+  !> `direction`: so that far away it would be zero at the distance `reach`.
   pure function line_datum(self, mixture, direction, reach) result(displacement)
     class(mixture_sums), intent(in) :: self
     type(depth_mixture), intent(in) :: mixture
@@ -169,17 +206,6 @@ contains
                    - limit/STEP*(log(2.0_dp*last_length(self)/reach) + 0.5_dp*STEP - 0.5_dp*EULER)
     displacement = displacement*self%spacing(direction)/(2.0_dp*sqrt(PI))
   end function line_datum
-
-  !> What they add to the displacement along `direction` in plane strain, under unit pressure on a cell, for each unit
-  !> of distance.
-  pure function line_slope(self, mixture, direction) result(slope)
-    class(mixture_sums), intent(in) :: self
-    type(depth_mixture), intent(in) :: mixture
-    integer, intent(in) :: direction
-    real(dp) :: slope
-
-    slope = -self%spacing(direction)/(4.0_dp*sqrt(PI))*sum_beyond(self, mixture, OF_ALONG, -1, 0.0_dp)
-  end function line_slope
 
   pure function last_length(sums) result(length)
     type(mixture_sums), intent(in) :: sums
