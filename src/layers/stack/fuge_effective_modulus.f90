@@ -41,11 +41,11 @@ contains
 
   !> The effective modulus of a layered body under round contacts of given size.
   !>
-  !> `radius` (n), > 0, length. `modulus` (n), force per length squared: E/(1 - nu**2) of the half-space on which a rigid
-  !> flat punch of this radius a is as stiff, with the other body of `body`: dF/dd = 2 a E. That is also the stiffness
-  !> of a round punch of any profile with this contact radius, because it moves on as a flat one, so this is the modulus
-  !> that indentation measures. It goes from that of the top layer, under small contacts, to that of the half-space
-  !> below, and grows without limit on a rigid base.
+  !> `radius` (n), > 0, length. `modulus` (n), force per length squared: E/(1 - nu**2) of the half-space on which a
+  !> rigid flat punch of this radius a is as stiff, with the other body of `body`: dF/dd = 2 a E. That is also the
+  !> stiffness of a round punch of any profile with this contact radius, because it moves on as a flat one, so this is
+  !> the modulus that indentation measures. It goes from that of the top layer, under small contacts, to that of the
+  !> half-space below, and grows without limit on a rigid base.
   !>
   !> The waves of the pressure are the cosine transform of a function on 0 .. a (N. N. Lebedev and Ia. S. Ufliand,
   !> Journal of Applied Mathematics and Mechanics 22, 1958), here of eight even Legendre polynomials with the least

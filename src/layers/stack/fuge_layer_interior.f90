@@ -17,8 +17,9 @@ module fuge_layer_interior
 
   public :: cut_at
 
-  !> Depths that differ by less are the same.
-  real(dp), parameter :: ROUNDING = 16.0_dp*epsilon(1.0_dp)
+  !> Depths that differ by less are the same: the caller may have added the thicknesses up in another order, and no
+  !> layer is as thin.
+  real(dp), parameter :: ROUNDING = 1.0e-12_dp
 
   !> The numbers Z, X, N, tt/p, V and U of a wave.
   integer, parameter, public :: ZZ = 1, NZ = 2, NN = 3, TT = 4, ALONG = 5, DOWN = 6
@@ -52,6 +53,7 @@ contains
 
     layers = size(stack%thickness)
     top = 0.0_dp
+    bottom = 0.0_dp
     do k = 1, layers
       bottom = sum(stack%thickness(:k))
       if (is_at(depth, bottom) .and. .not. below .or. depth < bottom .and. .not. is_at(depth, bottom)) exit

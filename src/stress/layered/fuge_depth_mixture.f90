@@ -46,10 +46,9 @@ module fuge_depth_mixture
     !> Those of longer t are beyond(1) + beyond(2)*r**a + beyond(3)*r**(a + 2), r = t_last/t, with a = 2 if m is 1,
     !> otherwise 1; (BEYOND, functions).
     real(dp) :: beyond(BEYOND, FUNCTIONS) = 0.0_dp
-    !> The largest error at waves between those of the fit, over the largest value of each function.
-    real(dp) :: error = 0.0_dp
   contains
     procedure :: weight_of
+    procedure :: value_at
   end type depth_mixture
 
 contains
@@ -90,12 +89,12 @@ contains
     mixture%first = floor(log(FIRST*shortest)/STEP)
     count = ceiling(log(last)/STEP) - mixture%first + 1
     rows = WAVES*count
-    allocate (mixture%weight(count, FUNCTIONS), q(2*rows), values(FUNCTIONS, 2*rows), weights(count + BEYOND, &
-                                                                                              FUNCTIONS), stat=stat)
+    allocate (mixture%weight(count, FUNCTIONS), q(rows), values(FUNCTIONS, rows), &
+              weights(count + BEYOND, FUNCTIONS), stat=stat)
     call require_memory(stat, 'stresses in layers, with', count, 'weights', info)
     if (stat /= 0) return
     q(1) = LONGEST_WAVE/last
-    ratio = (SHORTEST_WAVE/shortest/q(1))**(1.0_dp/real(2*rows - 1, dp))
+    ratio = (SHORTEST_WAVE/shortest/q(1))**(1.0_dp/real(rows - 1, dp))
     do k = 2, size(q)
       q(k) = q(1)*ratio**(k - 1)
     end do
@@ -105,14 +104,13 @@ contains
     weights(count + 1, :) = 0.0_dp
     weights(count + 1, OF_DOWN) = STEP*2.0_dp/sqrt(PI)*longest_wave_down(cut)
     do m = 0, 2
-      if (stat == 0) call fit_powers(mixture%first, m, q(::2), values(FIRST_OF(m):LAST_OF(m), ::2), &
+      if (stat == 0) call fit_powers(mixture%first, m, q, values(FIRST_OF(m):LAST_OF(m), :), &
                                      weights(:, FIRST_OF(m):LAST_OF(m)), stat)
     end do
     call require_memory(stat, 'stresses in layers, with', count, 'weights', info)
     if (stat /= 0) return
     mixture%weight = weights(:count, :)
     mixture%beyond = weights(count + 1:, :)
-    mixture%error = largest_error(mixture, q(2::2), values(:, 2::2), values)
   end subroutine fit_at_depth
 
   !> The thickness of all layers times the ratio of their moduli.
@@ -216,40 +214,41 @@ contains
     if (x < NEGLIGIBLE) term = x**m*exp(-x**2)
   end function term
 
-  !> The error of `mixture` at waves between those of the fit; `all_values` give the largest of each function.
-  pure function largest_error(mixture, q, values, all_values) result(error)
-    type(depth_mixture), intent(in) :: mixture
-    real(dp), intent(in) :: q(:), values(:, :), all_values(:, :)
-    real(dp) :: error
-    real(dp) :: found, x
-    integer :: f, j, k
+  !> `function` of a wave `q`, times q**m: in the top layer what a half-space of its material does not give.
+  pure function value_at(self, function, q) result(value)
+    class(depth_mixture), intent(in) :: self
+    integer, intent(in) :: function
+    real(dp), intent(in) :: q
+    real(dp) :: value
+    real(dp) :: x
+    integer :: k
 
-    error = 0.0_dp
-    do f = 1, FUNCTIONS
-      do j = 1, size(q)
-        found = 0.0_dp
-        k = mixture%first
-        x = q(j)*exp(STEP*real(k, dp))
-        do while (x < NEGLIGIBLE)
-          found = found + mixture%weight_of(f, k)*term(POWERS(f), x)
-          k = k + 1
-          x = q(j)*exp(STEP*real(k, dp))
-        end do
-        error = max(error, abs(found - values(f, j))/max(maxval(abs(all_values(f, :))), tiny(error)))
-      end do
+    value = 0.0_dp
+    k = self%first
+    x = q*exp(STEP*real(k, dp))
+    do while (x < NEGLIGIBLE)
+      value = value + self%weight_of(function, k)*term(POWERS(function), x)
+      k = k + 1
+      x = q*exp(STEP*real(k, dp))
     end do
-  end function largest_error
+  end function value_at
 
   !> xx = yy and zz at the cut under equal pressure everywhere, over the pressure: no stress along the surface in the
-  !> half-space below, and the same strain along it in all layers; none on a rigid base. In plane strain xx and zz.
+  !> half-space below, and the same strain along it in all layers. On a rigid base those of the longest waves, which do
+  !> not strain layers along the surface, unless they slide and have no stress there. In plane strain xx and zz.
   pure function uniform_stress(cut, plane_strain) result(stress)
     type(layer_cut), intent(in) :: cut
     logical, intent(in) :: plane_strain
     real(dp) :: stress(2)
-    real(dp) :: strain
+    real(dp) :: response(6), strain
     integer :: n
 
     n = size(cut%stack%shear)
+    if (cut%stack%is_rigid()) then
+      response = cut%response(LONGEST/length_of_layers(cut))
+      stress = [response(NN), -1.0_dp]
+      return
+    end if
     ! Twice the shear modulus of the top layer times the strain.
     strain = cut%stack%poisson(n)/cut%stack%shear(n)
     if (.not. plane_strain) strain = strain*(1.0_dp + cut%poisson)/(1.0_dp + cut%stack%poisson(n))

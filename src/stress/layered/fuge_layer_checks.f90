@@ -9,7 +9,7 @@ module fuge_layer_checks
   implicit none
   private
 
-  public :: cut_body
+  public :: cut_body, depth_in_top, number_in_top
 
 contains
 
@@ -45,5 +45,23 @@ contains
                   //' is in the rigid base: the layers are '//text(sum(stack%thickness))//' thick')
     end do
   end subroutine cut_body
+
+  !> Those of the depths that are in the top layer.
+  pure function depth_in_top(cut, depth) result(in_top)
+    type(layer_cut), intent(in) :: cut(:)
+    real(dp), intent(in) :: depth(:)
+    real(dp), allocatable :: in_top(:)
+
+    in_top = pack(depth, cut%layer == 1)
+  end function depth_in_top
+
+  !> The number of depth `k` among them.
+  pure function number_in_top(cut, k) result(number)
+    type(layer_cut), intent(in) :: cut(:)
+    integer, intent(in) :: k
+    integer :: number
+
+    number = count(cut(:k)%layer == 1)
+  end function number_in_top
 
 end module fuge_layer_checks

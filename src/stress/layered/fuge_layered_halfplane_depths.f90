@@ -11,7 +11,7 @@ module fuge_layered_halfplane_depths
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_halfspace_depths, only: convolve_tables
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: cut_body
+  use fuge_layer_checks, only: cut_body, depth_in_top, number_in_top
   use fuge_layer_interior, only: layer_cut
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_mixture_sums, only: mixture_sums, PLACES_OF, WAVES_OF
@@ -33,7 +33,7 @@ module fuge_layered_halfplane_depths
     type(mixture_sums) :: sums
     type(layer_cut), allocatable :: cut(:)
     type(depth_mixture), allocatable :: mixture(:)
-    !> Factors of waves; what a half-plane gives, (components, n, 1).
+    !> Factors of waves; what a half-plane gives, (components, n, depths in the top layer).
     real(dp), allocatable :: factor(:, :), plain(:, :, :)
   end type grid_work
 
@@ -45,9 +45,7 @@ contains
   !> `body` is set; they are those in the body that it was set with, not in the other one. `spacing`, `force`,
   !> `boundary`, `depth` and `stress` as for `fuge_halfplane_stress_grid`; `element` FUGE_CENTRE or FUGE_MEAN: strips of
   !> pressure. A depth at an interface is above it, or below where `below` (m, default .false.) says so: xx differs.
-  !> Errors are about 1e-11 of the largest stress at that depth. With FUGE_PERIODIC the mean pressure gives the
-  !> half-space below the layers no stress along x, and the layers the same strain along x as it has, on a rigid base
-  !> none.
+  !> Errors and the mean pressure of FUGE_PERIODIC as for `fuge_layered_halfspace_stress_grid`.
   !>
   !> Nine arguments: those of the cells and of the body. Errors, stress untouched: as for `fuge_halfplane_stress_grid`,
   !> FUGE_ERR_ELEMENT also for FUGE_HAT, FUGE_ERR_CALL_ORDER for a body that is not set, FUGE_ERR_GRID for a depth in a
@@ -70,18 +68,19 @@ contains
       return
     end if
     call start(work, spacing, force, element, boundary, depth, 3, info)
+    if (.not. info%failed()) call fuge_halfplane_stress_grid(spacing, force, element, boundary, &
+                                                             depth_in_top(work%cut, depth), work%plain, info)
     do k = 1, size(depth)
       if (info%failed()) exit
-      if (work%cut(k)%layer == 1) then
-        call fuge_halfplane_stress_grid(spacing, force, element, boundary, depth(k:k), work%plain, info)
-        if (info%failed()) exit
-      else
-        work%plain = 0.0_dp
-      end if
       call find_field(work, work%mixture(k), [1, 2, 3], stress(:, :, k))
-      stress(:, :, k) = stress(:, :, k)/spacing + work%plain(:, :, 1)
-      ! The pressure, without a rounding.
-      if (.not. depth(k) > 0.0_dp) stress(2:3, :, k) = work%plain(2:3, :, 1)
+      stress(:, :, k) = stress(:, :, k)/spacing
+      if (work%cut(k)%layer == 1) then
+        associate (plain => work%plain(:, :, number_in_top(work%cut, k)))
+          stress(:, :, k) = stress(:, :, k) + plain
+          ! The pressure, without a rounding.
+          if (.not. depth(k) > 0.0_dp) stress(2:3, :, k) = plain(2:3, :)
+        end associate
+      end if
       if (work%periodic) call add_mean(work%cut(k), sum(force)/(spacing*size(force)), stress(:, :, k))
     end do
     call work%waves%free()
@@ -123,17 +122,15 @@ contains
     call start(work, spacing, force, element, boundary, depth, 2, info)
     ! 1/(2 G) of the top layer.
     compliance = (1.0_dp + body%poisson())/body%young()
+    if (.not. info%failed()) call fuge_halfplane_displacement_grid(spacing, force, element, boundary, body%young(), &
+                                                                   body%poisson(), FUGE_PLANE_STRAIN, &
+                                                                   depth_in_top(work%cut, depth), work%plain, info)
     do k = 1, size(depth)
       if (info%failed()) exit
-      if (work%cut(k)%layer == 1) then
-        call fuge_halfplane_displacement_grid(spacing, force, element, boundary, body%young(), body%poisson(), &
-                                              FUGE_PLANE_STRAIN, depth(k:k), work%plain, info)
-        if (info%failed()) exit
-      else
-        work%plain = 0.0_dp
-      end if
       call find_field(work, work%mixture(k), [5, 4], displacement(2:1:-1, :, k))
-      displacement(:, :, k) = displacement(:, :, k)*(compliance/spacing) + work%plain(:, :, 1)
+      displacement(:, :, k) = displacement(:, :, k)*(compliance/spacing)
+      if (work%cut(k)%layer == 1) displacement(:, :, k) = displacement(:, :, k) &
+                                                          + work%plain(:, :, number_in_top(work%cut, k))
       if (work%periodic) displacement(2, :, k) = displacement(2, :, k) &
         + sum(force)/(spacing*size(force))*compliance*yield_below(work%cut(k))
     end do
@@ -153,7 +150,8 @@ contains
     if (info%failed() .or. size(depth) < 1) return
     work%periodic = boundary == FUGE_PERIODIC
     n = size(force)
-    allocate (work%mixture(size(depth)), work%plain(components, n, 1), work%factor(0:n/2, 0:0), stat=stat)
+    allocate (work%mixture(size(depth)), work%plain(components, n, count(work%cut%layer == 1)), &
+              work%factor(0:n/2, 0:0), stat=stat)
     call require_memory(stat, 'results at', n, 'cells', info)
     do k = 1, size(depth)
       if (.not. info%failed()) call fit_at_depth(work%cut(k), depth(k), work%mixture(k), info)
