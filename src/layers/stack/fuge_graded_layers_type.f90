@@ -1,13 +1,14 @@
 !> Graded bodies: layers in place of a modulus that varies over the depth.
 module fuge_graded_layers_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+  use fuge_constants, only: LARGEST_EXPONENT_OF_4
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_layer_stack, only: bonded_stack, layer_stack
-  use fuge_layered_body_type, only: check_layers
+  use fuge_layered_body_type, only: check_layers, LARGEST_RATIO
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MODULUS, &
-    FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
+    FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
   implicit none
   private
 
@@ -64,7 +65,7 @@ contains
   !>
   !> Errors, the layers untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for depths, FUGE_ERR_MODULUS,
   !> both also for ratios that the `set` refuses, FUGE_ERR_OPTION for the tolerance, FUGE_ERR_ITERATION_LIMIT if that
-  !> takes more layers, FUGE_ERR_MEMORY.
+  !> takes more layers, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
   subroutine divide(self, depth, young, poisson, info, tolerance, max_layers)
     class(fuge_graded_layers), intent(inout) :: self
     real(dp), intent(in) :: depth(:), young(:), poisson(:)
@@ -119,7 +120,32 @@ contains
       if (info%failed()) return
       call check_point(k, depth, young, poisson, info)
     end do
+    if (.not. info%failed()) call check_range(depth, young, info)
   end subroutine check_profile
+
+  !> Refuse numbers so large or small that their ratios would overflow.
+  subroutine check_range(depth, young, info)
+    real(dp), intent(in) :: depth(:), young(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: step
+    integer :: k
+
+    do k = 1, size(depth)
+      step = depth(k) - depth(max(k - 1, 1))
+      if (step > 0.0_dp .and. abs(exponent(step)) > LARGEST_EXPONENT_OF_4) then
+        call report(info, FUGE_ERR_OVERFLOW, 'depth('//index_text(k)//') = '//text(depth(k)) &
+                    //' is out of range: choose another unit of length')
+      else if (ieee_is_finite(young(k)) .and. abs(exponent(young(k))) > LARGEST_EXPONENT_OF_4) then
+        call report(info, FUGE_ERR_OVERFLOW, 'young('//index_text(k)//') = '//text(young(k)) &
+                    //' is out of range: choose other units')
+      end if
+      if (info%failed()) return
+    end do
+    if (maxval(young, mask=ieee_is_finite(young)) > LARGEST_RATIO*minval(young)) then
+      call report(info, FUGE_ERR_MODULUS, 'young: the ratio of the stiffest to the softest value is at most ' &
+                  //text(LARGEST_RATIO)//'; an infinite last one is a rigid base')
+    end if
+  end subroutine check_range
 
   !> Refuse point `k` of a profile.
   subroutine check_point(k, depth, young, poisson, info)

@@ -14,7 +14,7 @@ module fuge_layered_body_type
   public :: check_layers
 
   !> The largest ratio of two thicknesses or moduli.
-  real(dp), parameter :: LARGEST_RATIO = 1.0e8_dp
+  real(dp), parameter, public :: LARGEST_RATIO = 1.0e8_dp
   !> Long waves are those of the substrate to rounding, or on a rigid base negligible, from this many times the length
   !> on at which the layers and the substrate displace the surface equally.
   real(dp), parameter :: LONG = 1.0e3_dp, LONG_ON_RIGID = 30.0_dp
