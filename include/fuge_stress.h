@@ -178,8 +178,9 @@ int fuge_halfspace_displacement_grid(int nx, int ny, double spacing_x, double sp
  *                Stresses along the surface differ on both sides, and where layers slide also
  *                displacements along it
  * With FUGE_PERIODIC the mean pressure gives the half-space below the layers no stress along the
- * surface, and the layers the same strain as it has, on a rigid base none; displacements count
- * from the mean at each depth, on a rigid base from the base.  FUGE_ERR_GRID also for a depth in
+ * surface, and the layers the same strain as it has; on a rigid base none, but layers that slide
+ * have no stress along it.  Displacements count from the mean at each depth, on a rigid base from
+ * the base, as those of the operator.  FUGE_ERR_GRID also for a depth in
  * a rigid base, FUGE_ERR_ELEMENT for FUGE_HAT; other errors of the layers as in fuge_layers.h. */
 
 int fuge_layered_halfplane_stress_grid(int layers, const double *thickness, const double *young,

@@ -1,8 +1,8 @@
 """Stresses and displacements in bodies of layers, below the centres of equal cells side by side, by FFT.
 
 With 'periodic' the mean pressure gives the half-space below the layers no stress along the surface, and the layers the
-same strain as it has, on a rigid base none; displacements count from the mean at each depth, on a rigid base from the
-base.
+same strain as it has; on a rigid base none, but layers that slide have no stress along it. Displacements count from the
+mean at each depth, on a rigid base from the base, as those of the operator.
 """
 
 from __future__ import annotations

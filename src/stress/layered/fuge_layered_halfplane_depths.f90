@@ -92,8 +92,7 @@ contains
   !> `body`, `element`, `depth` and `below` as for `fuge_layered_halfplane_stress_grid`; others as for
   !> `fuge_halfplane_displacement_grid`, without the moduli. Where layers slide x differs above and below the interface.
   !> On a free surface the datum is that of `fuge_halfplane_operator` with this body. With FUGE_PERIODIC displacements
-  !> count from the mean at each depth, but on a rigid base from the base: the mean is the compression of the layers in
-  !> between, which do not expand along x.
+  !> count from the mean at each depth, but on a rigid base from the base, as those of the operator.
   !>
   !> Nine arguments: those of the cells and of the body. Errors, displacement untouched: as for
   !> `fuge_layered_halfplane_stress_grid`. Source: as there.

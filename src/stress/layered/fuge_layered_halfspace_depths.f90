@@ -99,7 +99,7 @@ contains
   !> `body`, `depth` and `below` as for `fuge_layered_halfspace_stress_grid`; others as for
   !> `fuge_halfspace_displacement_grid`, without the moduli. Where layers slide x and y differ above and below the
   !> interface. With FUGE_PERIODIC displacements count from the mean at each depth, but on a rigid base from the base:
-  !> the mean is the compression of the layers in between, which do not expand along the surface. With one periodic
+  !> the mean is that of the operator with this body. With one periodic
   !> direction the datum is that of `fuge_halfspace_operator` with this body.
   !>
   !> Eleven arguments: those of the grid and of the body. Errors, displacement untouched: as for
