@@ -9,7 +9,10 @@ module fuge_stress
   use fuge_interface_peaks, only: fuge_interface_stress, fuge_layered_halfplane_interfaces, &
     fuge_layered_halfspace_interfaces
   use fuge_layered_halfplane_depths, only: fuge_layered_halfplane_displacement_grid, fuge_layered_halfplane_stress_grid
+  use fuge_layered_halfplane_interior, only: fuge_layered_halfplane_displacement, fuge_layered_halfplane_stress
   use fuge_layered_halfspace_depths, only: fuge_layered_halfspace_displacement_grid, fuge_layered_halfspace_stress_grid
+  use fuge_layered_halfspace_interior, only: fuge_layered_halfspace_displacement, fuge_layered_halfspace_stress
+  use fuge_layered_peak_search, only: fuge_layer_peak, fuge_layered_halfplane_peak, fuge_layered_halfspace_peak
   use fuge_ring_interior, only: fuge_ring_interior_displacement, fuge_ring_stress
   use fuge_round_interior, only: fuge_round_displacement, fuge_round_stress
   use fuge_round_peak_search, only: fuge_ring_peak, fuge_round_peak

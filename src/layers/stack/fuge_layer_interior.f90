@@ -15,7 +15,7 @@ module fuge_layer_interior
   implicit none
   private
 
-  public :: cut_at
+  public :: cut_at, layer_at
 
   !> Depths that differ by less are the same: the caller may have added the thicknesses up in another order, and no
   !> layer is as thin.
@@ -42,6 +42,21 @@ module fuge_layer_interior
 
 contains
 
+  !> The layer of `stack` at the `depth` >= 0, the substrate being the last one: at an interface, to rounding, the layer
+  !> above it, or `below`.
+  pure function layer_at(stack, depth, below) result(layer)
+    type(layer_stack), intent(in) :: stack
+    real(dp), intent(in) :: depth
+    logical, intent(in) :: below
+    integer :: layer
+    real(dp) :: bottom
+
+    do layer = 1, size(stack%thickness)
+      bottom = sum(stack%thickness(:layer))
+      if (is_at(depth, bottom) .and. .not. below .or. depth < bottom .and. .not. is_at(depth, bottom)) return
+    end do
+  end function layer_at
+
   !> The body `stack` at the `depth` >= 0: at an interface, to rounding, in the layer above it, or `below`.
   pure function cut_at(stack, depth, below) result(cut)
     type(layer_stack), intent(in) :: stack
@@ -52,13 +67,9 @@ contains
     integer :: k, layers
 
     layers = size(stack%thickness)
-    top = 0.0_dp
-    bottom = 0.0_dp
-    do k = 1, layers
-      bottom = sum(stack%thickness(:k))
-      if (is_at(depth, bottom) .and. .not. below .or. depth < bottom .and. .not. is_at(depth, bottom)) exit
-      top = bottom
-    end do
+    k = layer_at(stack, depth, below)
+    top = sum(stack%thickness(:k - 1))
+    bottom = sum(stack%thickness(:min(k, layers)))
     cut%layer = k
     if (layers > 0) cut%thickness_of_top = stack%thickness(1)
     cut%shear = stack%shear(k)

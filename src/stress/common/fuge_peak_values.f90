@@ -9,7 +9,7 @@ module fuge_peak_values
   implicit none
   private
 
-  public :: evaluate_measure
+  public :: evaluate_measure, measure_all
 
   !> Places in one call of the field, which may build a tree of the cells in each.
   integer, parameter :: PORTION = 2**15
@@ -41,6 +41,7 @@ contains
     end do
   end subroutine evaluate_measure
 
+  !> The values and the stresses zz of `stress` (6, places), -1 and 0 where the value is not finite.
   pure subroutine measure_all(measure, stress, value, normal)
     integer, intent(in) :: measure
     real(dp), intent(in) :: stress(:, :)

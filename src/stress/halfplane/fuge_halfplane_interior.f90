@@ -11,7 +11,7 @@ module fuge_halfplane_interior
   implicit none
   private
 
-  public :: fuge_halfplane_stress, fuge_halfplane_displacement, displacement_factors
+  public :: check_points, fuge_halfplane_stress, fuge_halfplane_displacement, displacement_factors
 
   !> Many cells are put into clusters for this number of points or more: for fewer it takes longer than the plain sum.
   integer, parameter :: MANY_POINTS = 32

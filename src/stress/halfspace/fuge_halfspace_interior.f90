@@ -9,7 +9,7 @@ module fuge_halfspace_interior
   implicit none
   private
 
-  public :: fuge_halfspace_displacement, fuge_halfspace_stress
+  public :: check_points, fuge_halfspace_displacement, fuge_halfspace_stress, given_symmetry
 
 contains
 
@@ -110,6 +110,7 @@ contains
     if (of_body%failed()) info = of_body
   end subroutine check_body
 
+  !> Refuse points that are not in the body: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_GRID.
   pure subroutine check_points(px, py, pz, info)
     real(dp), intent(in) :: px(:), py(:), pz(:)
     type(fuge_info), intent(inout) :: info
@@ -119,6 +120,7 @@ contains
     call check_coordinate(py, 'py', pz, info)
   end subroutine check_points
 
+  !> About x = 0, about y = 0; by default not.
   pure function given_symmetry(symmetric_x, symmetric_y) result(symmetric)
     logical, intent(in), optional :: symmetric_x, symmetric_y
     logical :: symmetric(2)

@@ -15,7 +15,7 @@ module fuge_depth_mixture
   implicit none
   private
 
-  public :: fit_at_depth, uniform_stress, yield_below
+  public :: fit_at_depths, uniform_stress, yield_below
 
   !> Step of the rule in log t.
   real(dp), parameter, public :: STEP = 0.09_dp
@@ -26,7 +26,7 @@ module fuge_depth_mixture
   !> The first and the last of the functions with m = 0, 1, 2.
   integer, parameter :: FIRST_OF(0:2) = [1, 4, 6], LAST_OF(0:2) = [3, 5, 7]
   !> The first t is this fraction of the depth from which waves come; from that many times its inverse on, q counts not.
-  real(dp), parameter :: FIRST = 1.0_dp/14.0_dp, SHORTEST_WAVE = 40.0_dp
+  real(dp), parameter :: FIRST_LENGTH = 1.0_dp/14.0_dp, SHORTEST_WAVE = 40.0_dp
   !> Waves are long from this many times the depth, or the thickness of all layers times the ratio of moduli, on. The
   !> longest one has this q times the longest t.
   real(dp), parameter :: LONG = 1.0e3_dp, LONGEST_WAVE = 0.03_dp
@@ -48,6 +48,7 @@ module fuge_depth_mixture
     real(dp) :: beyond(BEYOND, FUNCTIONS) = 0.0_dp
   contains
     procedure :: weight_of
+    procedure :: sum_from
     procedure :: value_at
   end type depth_mixture
 
@@ -73,45 +74,116 @@ contains
     end if
   end function weight_of
 
-  !> Fit `mixture` to the body of `cut` at the `depth` >= 0, length; t and 1/q in the same unit. Error: FUGE_ERR_MEMORY.
-  subroutine fit_at_depth(cut, depth, mixture, info)
-    type(layer_cut), intent(in) :: cut
-    real(dp), intent(in) :: depth
-    type(depth_mixture), intent(out) :: mixture
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: values(:, :), weights(:, :), q(:)
-    real(dp) :: last, ratio, shortest
-    integer :: count, k, m, rows, stat
+  !> The sum over all lengths t from number `k` on of the weights of `function`, less `limit`, times t**power; the unit
+  !> of t is exp(log_of_unit). The power is below 0, or 0 where the weights tend to the limit.
+  pure function sum_from(self, function, k, power, limit, log_of_unit) result(total)
+    class(depth_mixture), intent(in) :: self
+    integer, intent(in) :: function, k, power
+    real(dp), intent(in) :: limit, log_of_unit
+    real(dp) :: total
+    real(dp) :: coefficient(BEYOND)
+    integer :: decay(BEYOND), j, last, next
 
+    last = self%first + size(self%weight, 1) - 1
+    total = 0.0_dp
+    do j = k, last
+      total = total + (self%weight_of(function, j) - limit)*exp(real(power, dp)*(STEP*real(j, dp) - log_of_unit))
+    end do
+    coefficient = self%beyond(:, function) - [limit, 0.0_dp, 0.0_dp]
+    decay = [0, 1, 3] + [0, 1, 1]*mod(POWERS(function), 2) - power
+    next = max(k, last + 1)
+    do j = 1, BEYOND
+      ! A geometric series of length number `next` and all longer ones.
+      if (decay(j) > 0) total = total + coefficient(j)/(1.0_dp - exp(-STEP*real(decay(j), dp))) &
+        *exp(STEP*real(power*last - decay(j)*(next - last), dp) - real(power, dp)*log_of_unit)
+    end do
+  end function sum_from
+
+  !> Fit `mixture` (m) to the body of `cut` (m) at each `depth` (m) >= 0, length, all of them in one layer; t and 1/q in
+  !> the same unit. They share their lengths, and the matrix of the fit. Error: FUGE_ERR_MEMORY.
+  subroutine fit_at_depths(cut, depth, mixture, info)
+    type(layer_cut), intent(in) :: cut(:)
+    real(dp), intent(in) :: depth(:)
+    type(depth_mixture), intent(inout) :: mixture(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: values(:, :, :), weights(:, :, :), q(:)
+    real(dp) :: last, shortest
+    integer :: count, first, j, m, number, stat
+
+    if (info%failed() .or. size(depth) < 1) return
+    shortest = minval(depth)
     ! In the top layer the shortest way is that by the first interface.
-    shortest = merge(2.0_dp*cut%thickness_of_top - depth, depth, cut%layer == 1)
-    last = LONG*max(depth, length_of_layers(cut))
-    mixture%first = floor(log(FIRST*shortest)/STEP)
-    count = ceiling(log(last)/STEP) - mixture%first + 1
-    rows = WAVES*count
-    allocate (mixture%weight(count, FUNCTIONS), q(rows), values(FUNCTIONS, rows), &
-              weights(count + BEYOND, FUNCTIONS), stat=stat)
+    if (cut(1)%layer == 1) shortest = 2.0_dp*cut(1)%thickness_of_top - maxval(depth)
+    last = LONG*max(maxval(depth), length_of_layers(cut(1)))
+    first = floor(log(FIRST_LENGTH*shortest)/STEP)
+    count = ceiling(log(last)/STEP) - first + 1
+    number = size(depth)
+    allocate (q(WAVES*count), values(WAVES*count, number, FUNCTIONS), weights(count + BEYOND, number, FUNCTIONS), &
+              stat=stat)
     call require_memory(stat, 'stresses in layers, with', count, 'weights', info)
     if (stat /= 0) return
-    q(1) = LONGEST_WAVE/last
-    ratio = (SHORTEST_WAVE/shortest/q(1))**(1.0_dp/real(rows - 1, dp))
-    do k = 2, size(q)
-      q(k) = q(1)*ratio**(k - 1)
+    call choose_waves(LONGEST_WAVE/last, SHORTEST_WAVE/shortest, q)
+    weights(count + 1, :, :) = 0.0_dp
+    do j = 1, number
+      call find_values(cut(j), depth(j), q, values(:, j, :))
+      weights(count + 1, j, OF_DOWN) = STEP*2.0_dp/sqrt(PI)*longest_wave_down(cut(j))
     end do
-    do k = 1, size(q)
-      values(:, k) = functions_of(cut, depth, q(k))
-    end do
-    weights(count + 1, :) = 0.0_dp
-    weights(count + 1, OF_DOWN) = STEP*2.0_dp/sqrt(PI)*longest_wave_down(cut)
     do m = 0, 2
-      if (stat == 0) call fit_powers(mixture%first, m, q, values(FIRST_OF(m):LAST_OF(m), :), &
-                                     weights(:, FIRST_OF(m):LAST_OF(m)), stat)
+      associate (from => FIRST_OF(m), to => LAST_OF(m))
+        call fit_powers(first, m, q, count + BEYOND, number*(to - from + 1), values(:, :, from:to), &
+                        weights(:, :, from:to), stat)
+      end associate
+      call require_memory(stat, 'stresses in layers, with', count, 'weights', info)
+      if (stat /= 0) return
     end do
-    call require_memory(stat, 'stresses in layers, with', count, 'weights', info)
+    do j = 1, number
+      call set_weights(mixture(j), first, weights(:, j, :), stat)
+      call require_memory(stat, 'stresses in layers, with', count, 'weights', info)
+      if (stat /= 0) return
+    end do
+  end subroutine fit_at_depths
+
+  !> Waves from `longest` to `shortest`, 1/length, at equal ratios.
+  pure subroutine choose_waves(longest, shortest, q)
+    real(dp), intent(in) :: longest, shortest
+    real(dp), intent(out) :: q(:)
+    real(dp) :: ratio
+    integer :: k
+
+    ratio = (shortest/longest)**(1.0_dp/real(size(q) - 1, dp))
+    do k = 1, size(q)
+      q(k) = longest*ratio**(k - 1)
+    end do
+  end subroutine choose_waves
+
+  !> `values` (waves, functions).
+  pure subroutine find_values(cut, depth, q, values)
+    type(layer_cut), intent(in) :: cut
+    real(dp), intent(in) :: depth, q(:)
+    real(dp), intent(out) :: values(:, :)
+    integer :: k
+
+    do k = 1, size(q)
+      values(k, :) = functions_of(cut, depth, q(k))
+    end do
+  end subroutine find_values
+
+  !> Take the `weights` (weights + BEYOND, functions).
+  pure subroutine set_weights(mixture, first, weights, stat)
+    type(depth_mixture), intent(inout) :: mixture
+    integer, intent(in) :: first
+    real(dp), intent(in) :: weights(:, :)
+    integer, intent(out) :: stat
+    integer :: count
+
+    count = size(weights, 1) - BEYOND
+    if (allocated(mixture%weight)) deallocate (mixture%weight)
+    allocate (mixture%weight(count, FUNCTIONS), stat=stat)
     if (stat /= 0) return
+    mixture%first = first
     mixture%weight = weights(:count, :)
     mixture%beyond = weights(count + 1:, :)
-  end subroutine fit_at_depth
+  end subroutine set_weights
 
   !> The thickness of all layers times the ratio of their moduli.
   pure function length_of_layers(cut) result(length)
@@ -156,53 +228,69 @@ contains
               -response(ALONG)]
   end function functions_of
 
-  !> Weights of the functions with the power `m`, by least squares. `values` (functions, waves). With m = 1 the limits
-  !> of the weights are known: they are in `weights` already.
-  subroutine fit_powers(first, m, q, values, weights, stat)
-    integer, intent(in) :: first, m
-    real(dp), intent(in) :: q(:), values(:, :)
-    real(dp), intent(inout) :: weights(:, :)
+  !> Weights of functions with the power `m`, by least squares, for `sets` of values. `values` (waves, sets) are used up.
+  !> With m = 1 the limits of the weights are known: they are in `weights` (unknowns, sets) already. `stat` as in an
+  !> allocate statement.
+  subroutine fit_powers(first, m, q, unknowns, sets, values, weights, stat)
+    integer, intent(in) :: first, m, unknowns, sets
+    real(dp), intent(in) :: q(:)
+    real(dp), intent(inout) :: values(size(q), sets), weights(unknowns, sets)
     integer, intent(out) :: stat
-    real(dp), allocatable :: matrix(:, :), right(:, :), work(:)
-    real(dp) :: limit(size(weights, 2)), ratio, size_of_work(1), x
+    real(dp), allocatable :: matrix(:, :), equal(:), work(:)
+    real(dp) :: size_of_work(1)
     integer, allocatable :: pivot(:)
-    integer :: a, count, k, next, rank, rows
+    integer :: count, fault, k, rank, rows
 
-    count = size(weights, 1) - BEYOND
     rows = size(q)
-    allocate (matrix(rows, count + BEYOND), right(rows, size(weights, 2)), pivot(count + BEYOND), stat=stat)
+    count = unknowns - BEYOND
+    allocate (matrix(rows, unknowns), equal(rows), pivot(unknowns), stat=stat)
     if (stat /= 0) return
     pivot = 0
-    matrix = 0.0_dp
-    right = transpose(values)
-    a = 1 + mod(m, 2)
-    limit = weights(count + 1, :)
     do k = 1, count
       matrix(:, k) = term(m, q*exp(STEP*real(first + k - 1, dp)))
     end do
     do k = 1, rows
-      next = 1
-      do
-        x = q(k)*exp(STEP*real(first + count + next - 1, dp))
-        if (x > NEGLIGIBLE) exit
-        ratio = exp(-STEP*real(next, dp))
-        ! Without a power of q there is no limit: the sum would be infinite.
-        if (m == 2) matrix(k, count + 1) = matrix(k, count + 1) + term(m, x)
-        right(k, :) = right(k, :) - limit*term(m, x)
-        matrix(k, count + 2) = matrix(k, count + 2) + ratio**a*term(m, x)
-        matrix(k, count + 3) = matrix(k, count + 3) + ratio**(a + 2)*term(m, x)
-        next = next + 1
-      end do
+      call sum_longer(m, q(k), first + count - 1, equal(k), matrix(k, count + 1:))
     end do
-    call dgelsy(rows, count + BEYOND, size(right, 2), matrix, rows, right, rows, pivot, RANK_TOLERANCE, rank, &
-                size_of_work, -1, stat)
-    if (stat == 0) allocate (work(max(1, int(size_of_work(1)))), stat=stat)
+    if (m == 1) then
+      do k = 1, sets
+        values(:, k) = values(:, k) - weights(count + 1, k)*equal
+      end do
+    end if
+    ! Its only faults are those of arguments.
+    call dgelsy(rows, unknowns, sets, matrix, rows, values, rows, pivot, RANK_TOLERANCE, rank, size_of_work, -1, fault)
+    allocate (work(max(1, int(size_of_work(1)))), stat=stat)
     if (stat /= 0) return
-    call dgelsy(rows, count + BEYOND, size(right, 2), matrix, rows, right, rows, pivot, RANK_TOLERANCE, rank, work, &
-                size(work), stat)
-    weights = right(:count + BEYOND, :)
-    if (m == 1) weights(count + 1, :) = limit
+    call dgelsy(rows, unknowns, sets, matrix, rows, values, rows, pivot, RANK_TOLERANCE, rank, work, size(work), fault)
+    if (m /= 1) weights(count + 1, :) = values(count + 1, :)
+    weights(:count, :) = values(:count, :)
+    weights(count + 2:, :) = values(count + 2:unknowns, :)
   end subroutine fit_powers
+
+  !> What the t longer than exp(STEP `last`) give in a wave `q` with weights of 1, in `equal`, and the coefficients of
+  !> the three unknowns that stand for their weights.
+  pure subroutine sum_longer(m, q, last, equal, coefficient)
+    integer, intent(in) :: m, last
+    real(dp), intent(in) :: q
+    real(dp), intent(out) :: equal, coefficient(BEYOND)
+    real(dp) :: ratio, x
+    integer :: a, next
+
+    a = 1 + mod(m, 2)
+    equal = 0.0_dp
+    coefficient = 0.0_dp
+    next = 1
+    do
+      x = q*exp(STEP*real(last + next, dp))
+      if (x > NEGLIGIBLE) exit
+      ratio = exp(-STEP*real(next, dp))
+      equal = equal + term(m, x)
+      coefficient(2:) = coefficient(2:) + [ratio**a, ratio**(a + 2)]*term(m, x)
+      next = next + 1
+    end do
+    ! Without a power of q there is no limit: the sum would be infinite.
+    if (m == 2) coefficient(1) = equal
+  end subroutine sum_longer
 
   !> x**m exp(-x**2).
   elemental function term(m, x)

@@ -1,7 +1,7 @@
 !> Stresses and displacements in a body of layers, in plane strain, at depths below the centres of a grid of cells, by
 !> FFT; as fuge_layered_halfspace_depths.
 module fuge_layered_halfplane_depths
-  use fuge_depth_mixture, only: depth_mixture, fit_at_depth, uniform_stress, yield_below, OF_ALONG, OF_DOWN, OF_NN, &
+  use fuge_depth_mixture, only: depth_mixture, fit_at_depths, uniform_stress, yield_below, OF_ALONG, OF_DOWN, OF_NN, &
     OF_SLOPE, OF_ZZ
   use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
   use fuge_grid_waves, only: grid_waves
@@ -153,7 +153,7 @@ contains
               work%factor(0:n/2, 0:0), stat=stat)
     call require_memory(stat, 'results at', n, 'cells', info)
     do k = 1, size(depth)
-      if (.not. info%failed()) call fit_at_depth(work%cut(k), depth(k), work%mixture(k), info)
+      call fit_at_depths(work%cut(k:k), depth(k:k), work%mixture(k:k), info)
     end do
     if (info%failed()) return
     call work%sums%prepare([n, 1], [spacing, spacing], [merge(WAVES_OF, PLACES_OF, work%periodic), WAVES_OF], &

@@ -4,7 +4,7 @@
 !> change; deeper all of it is a mixture of Gaussians (fuge_depth_mixture), which make products of sums along both
 !> directions, of places or of waves.
 module fuge_layered_halfspace_depths
-  use fuge_depth_mixture, only: depth_mixture, fit_at_depth, uniform_stress, yield_below, OF_ALONG, OF_DIFFERENCE, &
+  use fuge_depth_mixture, only: depth_mixture, fit_at_depths, uniform_stress, yield_below, OF_ALONG, OF_DIFFERENCE, &
     OF_DOWN, OF_NN, OF_SLOPE, OF_TT, OF_ZZ
   use fuge_grid_waves, only: grid_waves
   use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
@@ -167,7 +167,7 @@ contains
     allocate (work%mixture(size(depth)), work%plain(components, size(force), count(work%cut%layer == 1)), stat=stat)
     call require_memory(stat, 'results at', size(force), 'cells', info)
     do k = 1, size(depth)
-      if (.not. info%failed()) call fit_at_depth(work%cut(k), depth(k), work%mixture(k), info)
+      call fit_at_depths(work%cut(k:k), depth(k:k), work%mixture(k:k), info)
     end do
     if (info%failed()) return
     kind = PLACES_OF

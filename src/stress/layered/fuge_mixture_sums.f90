@@ -14,8 +14,6 @@ module fuge_mixture_sums
   !> Gaussians longer than this many times all distances are the first term of their series in 1/t to rounding.
   real(dp), parameter :: FAR = 1.0e6_dp
 
-  !> So many lengths beyond the last weight are a sum to rounding.
-  integer, parameter :: MANY = 420
   !> Euler's constant.
   real(dp), parameter :: EULER = 0.57721566490153286_dp
 
@@ -221,13 +219,8 @@ contains
     integer, intent(in) :: function, power
     real(dp), intent(in) :: limit
     real(dp) :: total
-    integer :: k, last
 
-    last = sums%first + size(sums%along_x, 2) - 1
-    total = 0.0_dp
-    do k = last + 1, max(last, mixture%first + size(mixture%weight, 1)) + MANY
-      total = total + (mixture%weight_of(function, k) - limit)*exp(STEP*real(power*k, dp))
-    end do
+    total = mixture%sum_from(function, sums%first + size(sums%along_x, 2), power, limit, 0.0_dp)
   end function sum_beyond
 
   !> The weight of length number `k` of the sums, times t**m.
