@@ -9,7 +9,7 @@ module fuge_layer_checks
   implicit none
   private
 
-  public :: cut_body, depth_in_top, number_in_top
+  public :: cut_body, find_depths_in_top, number_in_top
 
 contains
 
@@ -46,14 +46,22 @@ contains
     end do
   end subroutine cut_body
 
-  !> Those of the depths that are in the top layer.
-  pure function depth_in_top(cut, depth) result(in_top)
+  !> `in_top`: those of the depths that are in the top layer. FUGE_ERR_MEMORY.
+  pure subroutine find_depths_in_top(cut, depth, in_top, info)
     type(layer_cut), intent(in) :: cut(:)
     real(dp), intent(in) :: depth(:)
-    real(dp), allocatable :: in_top(:)
+    real(dp), allocatable, intent(out) :: in_top(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: k, stat
 
-    in_top = pack(depth, cut%layer == 1)
-  end function depth_in_top
+    if (info%failed()) return
+    allocate (in_top(count(cut%layer == 1)), stat=stat)
+    call require_memory(stat, '', size(depth), 'depths', info)
+    if (stat /= 0) return
+    do k = 1, size(depth)
+      if (cut(k)%layer == 1) in_top(number_in_top(cut, k)) = depth(k)
+    end do
+  end subroutine find_depths_in_top
 
   !> The number of depth `k` among them.
   pure function number_in_top(cut, k) result(number)
