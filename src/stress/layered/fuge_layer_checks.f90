@@ -1,7 +1,7 @@
 !> A body of layers at the depths that the caller asks for.
 module fuge_layer_checks
   use fuge_kinds, only: dp
-  use fuge_layer_interior, only: cut_at, layer_cut
+  use fuge_layer_interior, only: find_cut, layer_cut
   use fuge_layer_stack, only: layer_stack
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_number_text, only: text
@@ -39,7 +39,9 @@ contains
       if (info%failed()) return
       lower = .false.
       if (present(below)) lower = below(k)
-      cut(k) = cut_at(stack, depth(k), lower)
+      call find_cut(stack, depth(k), lower, cut(k), stat)
+      call require_memory(stat, 'layers at', size(depth), 'depths', info)
+      if (stat /= 0) return
       if (.not. cut(k)%shear > huge(1.0_dp)) cycle
       call report(info, FUGE_ERR_GRID, 'depth '//text(k)//' = '//text(depth(k)) &
                   //' is in the rigid base: the layers are '//text(sum(stack%thickness))//' thick')
