@@ -103,8 +103,7 @@ contains
 
     layers = size(stack%thickness)
     more = merge(1, 0, twice > 0)
-    allocate (copy%thickness(layers + more), copy%bonded(layers + more), copy%shear(layers + more + 1), &
-              copy%poisson(layers + more + 1), stat=stat)
+    call copy%make_room(layers + more, stat)
     if (stat /= 0) return
     do k = 1, layers + more + 1
       from = k
