@@ -14,7 +14,8 @@
  *                       come off
  *   e_star_other   in   E/(1 - nu^2) of the other body, a half-space; HUGE_VAL: it is rigid
  * Layers count from 1 in messages.  What is bonded to a layer of the same material is one with
- * it.  The ratio of two thicknesses, and of two moduli, is at most 1e8.
+ * it.  The ratio of two thicknesses, and of two moduli, is at most 1e8; all of them are in
+ * 1e-77 .. 1e77.
  *
  * A wave q of pressure p displaces the surface by 2 T(q) p/(e_star q), where
  * 1/e_star = (1 - nu^2)/E of the top layer + 1/e_star_other, and T goes from 1 for short waves
@@ -35,7 +36,7 @@ extern "C" {
 /* A layered half-plane in plane strain: the other arguments are those of
  * fuge_operator_halfplane.  Far from a force displacements are those of the half-space below
  * the layers, with its datum.  FUGE_ERR_SIZE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS,
- * FUGE_ERR_NOT_FINITE also for the layers. */
+ * FUGE_ERR_NOT_FINITE and FUGE_ERR_OVERFLOW also for the layers. */
 int fuge_operator_layered_halfplane(int n, double spacing, int layers, const double *thickness,
                                     const double *young, const double *poisson, int bonded,
                                     double e_star_other, int element, int boundary,
@@ -129,10 +130,10 @@ int fuge_layered_modulus(int layers, const double *thickness, const double *youn
  *   radius         in   of the contact; > 0; length
  *   share          in   1e-6 .. 1: the largest relative change of the effective modulus, as above
  *                       against a rigid body, that counts as not felt
- *   thin           out  up to this thickness the coating is not felt; 0 on a rigid base, HUGE_VAL
- *                       if it never is; length; may be NULL
+ *   thin           out  up to this thickness the coating is not felt; 0 on a rigid base, or if
+ *                       1e-16 radii are felt; HUGE_VAL if it never is; length; may be NULL
  *   thick          out  from this thickness on the half-space below is not felt; 0 if it never
- *                       is; length; may be NULL
+ *                       is, HUGE_VAL if it is below 1e16 radii; length; may be NULL
  * FUGE_ERR_WIDTH for the radius, FUGE_ERR_MODULUS, FUGE_ERR_OPTION for the share. */
 int fuge_coating_limits(const double *young, const double *poisson, double radius, double share,
                         double *thin, double *thick, char *message, size_t len);

@@ -94,18 +94,24 @@ contains
   subroutine multiply_columns(self, part, parts)
     class(product_job), intent(inout) :: self
     integer, intent(in) :: part, parts
-    real(dp) :: some(COLUMNS, size(self%along_x, 2))
-    integer :: block, count, first, from, rows, to
+    integer :: block, first, from, to
 
-    rows = size(self%table, 1)
     call share((size(self%table, 2) - 1)/COLUMNS + 1, part, parts, from, to)
     do block = from, to
       first = COLUMNS*block + 1
-      count = min(COLUMNS, size(self%table, 2) - first + 1)
-      some(:count, :) = self%along_x(first:first + count - 1, :)
-      call dgemm('N', 'T', rows, count, size(some, 2), 1.0_dp, self%along_y, rows, some, COLUMNS, 0.0_dp, &
-                 self%table(:, first:first + count - 1), rows)
+      call multiply_block(size(self%table, 1), size(self%table, 2), size(self%along_y, 2), first, self%along_y, &
+                          self%along_x, self%table)
     end do
   end subroutine multiply_columns
+
+  !> The columns of the table from number `first` on, at most COLUMNS of their `number`.
+  subroutine multiply_block(rows, number, lengths, first, along_y, along_x, table)
+    integer, intent(in) :: rows, number, lengths, first
+    real(dp), intent(in) :: along_y(rows, lengths), along_x(number, lengths)
+    real(dp), intent(inout) :: table(rows, number)
+
+    call dgemm('N', 'T', rows, min(COLUMNS, number - first + 1), lengths, 1.0_dp, along_y, rows, along_x(first, 1), &
+               number, 0.0_dp, table(1, first), rows)
+  end subroutine multiply_block
 
 end module fuge_gaussian_products

@@ -9,8 +9,9 @@ module fuge_c_layers
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_layered_matrices, only: fuge_layered_halfplane_matrix, fuge_layered_halfspace_matrix, &
     fuge_layered_ring_matrix
+  use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -127,6 +128,7 @@ contains
     type(fuge_info) :: info
 
     call find_matrix(n, alpha, lda, matrix, info)
+    call require_room_for_one_more(n, 'n', 'rings have one radius more', info)
     if (.not. info%failed()) call find_array(n + 1, radius, 'radius', radii, info)
     call find_layers(layers, thickness, young, poisson, bonded, e_star_other, body, info)
     if (.not. info%failed()) call fuge_layered_ring_matrix(body, radii, matrix, info)
@@ -162,16 +164,34 @@ contains
     type(fuge_info), intent(inout) :: info
     real(c_double), pointer :: moduli(:), ratios(:), thicknesses(:)
     real(c_double), target :: none(0)
+    logical, allocatable :: joined(:)
+    integer :: stat
 
     call require_count(layers, 0, 'layers', 'layers', info)
+    call require_room_for_one_more(layers, 'layers', 'young and poisson have one value more', info)
     thicknesses => none
     if (layers > 0) call find_array(layers, thickness, 'thickness', thicknesses, info)
     if (.not. info%failed()) then
       call find_array(layers + 1, young, 'young', moduli, info)
       call find_array(layers + 1, poisson, 'poisson', ratios, info)
     end if
-    if (.not. info%failed()) call body%set(thicknesses, moduli, ratios, info, spread(bonded /= 0, 1, int(layers)), &
-                                           e_star_other)
+    if (info%failed()) return
+    allocate (joined(layers), stat=stat)
+    call require_memory(stat, '', int(layers), 'layers', info)
+    if (stat /= 0) return
+    joined = bonded /= 0
+    call body%set(thicknesses, moduli, ratios, info, joined, e_star_other)
   end subroutine find_layers
+
+  !> Refuse a number that is the largest integer where an array has one element more, because of what `reason` says
+  !> (FUGE_ERR_SIZE), unless an error is known already.
+  pure subroutine require_room_for_one_more(number, name, reason, info)
+    integer(c_int), intent(in) :: number
+    character(len=*), intent(in) :: name, reason
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed() .or. number < huge(number)) return
+    call report(info, FUGE_ERR_SIZE, name//' = '//text(int(number))//' is too large: '//reason//' than that')
+  end subroutine require_room_for_one_more
 
 end module fuge_c_layers

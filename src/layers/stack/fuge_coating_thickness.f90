@@ -1,18 +1,21 @@
 !> From which thickness on a coating is felt, and from which on the body below it is not.
 module fuge_coating_thickness
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_positive_inf, ieee_value
+  use fuge_constants, only: LARGEST_EXPONENT_OF_4
   use fuge_effective_modulus, only: punch_factor
   use fuge_kinds, only: dp
-  use fuge_layer_stack, only: bonded_stack, layer_stack
+  use fuge_layer_stack, only: bond_layers, layer_stack
   use fuge_layered_body_type, only: check_layers
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_WIDTH
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, &
+    FUGE_ERR_WIDTH
   implicit none
   private
 
   public :: fuge_find_coating_limits
 
-  !> Powers of ten above and below the contact radius in which limits are looked for, and steps in each of them.
+  !> Powers of ten above and below the contact radius in which limits are looked for, and steps in each of them. With
+  !> the largest ratio of moduli and the least share the limits are 1e-15 and 1e12 radii.
   integer, parameter :: DECADES = 16, STEPS_PER_DECADE = 2
   !> The range of the share.
   real(dp), parameter :: LEAST_SHARE = 1.0e-6_dp, LARGEST_SHARE = 1.0_dp
@@ -28,18 +31,20 @@ contains
   !> not felt, the largest relative change of the effective modulus of `fuge_find_effective_modulus`.
   !>
   !> `thin`: up to this thickness, length, the effective modulus is that of the substrate, changed by less than
-  !> `share`; infinite if a coating of any thickness is not felt, 0 if one of any thickness is, as on a rigid base.
-  !> `thick`: from this thickness on it is that of a half-space of the coating's material; 0 if it always is. Both are
-  !> found by bisection of the change over the logarithm of the thickness, where it first exceeds the share.
+  !> `share`; infinite if a coating of any thickness is not felt, 0 if one of any thickness is, as on a rigid base, or
+  !> one of 1e-16 radii. `thick`: from this thickness on it is that of a half-space of the coating's material; 0 if it
+  !> always is, infinite if at 1e16 radii it is not. Both are found by bisection of the change over the logarithm of
+  !> the thickness, where it first exceeds the share.
   !>
   !> Errors, thin and thick untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for the radius,
-  !> FUGE_ERR_MODULUS, FUGE_ERR_OPTION for the share.
+  !> FUGE_ERR_MODULUS, FUGE_ERR_OPTION for the share, FUGE_ERR_OVERFLOW.
   subroutine fuge_find_coating_limits(young, poisson, radius, share, thin, thick, info)
     real(dp), intent(in) :: young(:), poisson(:), radius, share
     real(dp), intent(inout) :: thin, thick
     type(fuge_info), intent(out) :: info
     type(layer_stack) :: stack
     real(dp) :: below, limit
+    integer :: stat
 
     call check_layers([1.0_dp], young, poisson, info)
     if (info%failed()) return
@@ -47,6 +52,8 @@ contains
       call report(info, FUGE_ERR_NOT_FINITE, 'radius = '//text(radius)//' is not a finite number')
     else if (.not. radius > 0.0_dp) then
       call report(info, FUGE_ERR_WIDTH, 'radius = '//text(radius)//' is not positive')
+    else if (abs(exponent(radius)) > LARGEST_EXPONENT_OF_4) then
+      call report(info, FUGE_ERR_OVERFLOW, 'radius = '//text(radius)//' is out of range: choose another unit of length')
     else if (ieee_is_nan(share)) then
       call report(info, FUGE_ERR_NOT_FINITE, 'share is not a number')
     else if (share < LEAST_SHARE .or. share > LARGEST_SHARE) then
@@ -54,7 +61,9 @@ contains
                   //text(LARGEST_SHARE))
     end if
     if (info%failed()) return
-    stack = bonded_stack([1.0_dp], young, poisson)
+    call bond_layers([1.0_dp], young, poisson, stack, stat)
+    call require_memory(stat, 'a coating', info)
+    if (stat /= 0) return
     limit = stack%factor_of_longest()
     below = 0.0_dp
     if (limit > 0.0_dp) below = radius*limit_from(stack, share, limit, -1)
@@ -81,9 +90,10 @@ contains
       if (found) exit
       unfelt = felt
     end do
-    if (.not. found) then
+    if (k == 0 .or. .not. found) then
+      ! Felt at the end where the search begins, the limit is beyond that; never felt, it is beyond the other one.
       thickness = 0.0_dp
-      if (side < 0) thickness = ieee_value(thickness, ieee_positive_inf)
+      if (found .eqv. side > 0) thickness = ieee_value(thickness, ieee_positive_inf)
       return
     end if
     do k = 1, BISECTIONS

@@ -4,7 +4,7 @@ module fuge_graded_layers_type
   use fuge_constants, only: LARGEST_EXPONENT_OF_4
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_layer_stack, only: bonded_stack, layer_stack
+  use fuge_layer_stack, only: bond_layers, layer_stack
   use fuge_layered_body_type, only: check_layers, LARGEST_RATIO
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_MODULUS, &
@@ -80,7 +80,8 @@ contains
     wanted = DEFAULT_TOLERANCE
     if (present(tolerance)) wanted = tolerance
     most = DEFAULT_MAX_LAYERS
-    if (present(max_layers)) most = max_layers
+    ! There is one modulus more.
+    if (present(max_layers)) most = min(max_layers, huge(most) - 1)
     call check_profile(depth, young, poisson, info)
     if (info%failed()) return
     if (ieee_is_nan(wanted)) then
@@ -90,8 +91,8 @@ contains
                   //text(LARGEST_TOLERANCE))
     end if
     if (info%failed()) return
-    call measure_changes(depth, young, poisson, profile)
-    call refine(profile, wanted, most, found, info)
+    call measure_changes(depth, young, poisson, profile, info)
+    if (.not. info%failed()) call refine(profile, wanted, most, found, info)
     if (.not. info%failed()) call check_layers(found%thickness, found%young, found%poisson, info)
     if (info%failed()) return
     call move_alloc(found%thickness, self%thickness)
@@ -178,17 +179,22 @@ contains
     end if
   end subroutine check_point
 
-  !> The profile, with the share of each interval in the change.
-  subroutine measure_changes(depth, young, poisson, profile)
+  !> The profile, with the share of each interval in the change. FUGE_ERR_MEMORY.
+  subroutine measure_changes(depth, young, poisson, profile, info)
     real(dp), intent(in) :: depth(:), young(:), poisson(:)
     type(depth_profile), intent(out) :: profile
-    integer :: k
+    type(fuge_info), intent(inout) :: info
+    integer :: k, n, stat
 
-    allocate (profile%depth, source=depth)
-    allocate (profile%young, source=young)
-    allocate (profile%poisson, source=poisson)
-    allocate (profile%change(size(depth) - 1), source=0.0_dp)
-    do k = 1, size(profile%change)
+    n = size(depth)
+    allocate (profile%depth(n), profile%young(n), profile%poisson(n), profile%change(n - 1), stat=stat)
+    call require_memory(stat, 'a profile of', n, 'depths', info)
+    if (stat /= 0) return
+    profile%depth = depth
+    profile%young = young
+    profile%poisson = poisson
+    profile%change = 0.0_dp
+    do k = 1, n - 1
       if (depth(k + 1) > depth(k)) profile%change(k) = change_down_to(profile, k, depth(k + 1))
     end do
     if (any(profile%change > 0.0_dp)) profile%change = profile%change/sum(profile%change)
@@ -238,23 +244,27 @@ contains
     type(fuge_graded_layers), intent(out) :: layers
     type(fuge_info), intent(inout) :: info
     type(fuge_graded_layers) :: half
+    real(dp) :: difference, growth
     integer :: count, layers_needed
 
     count = FIRST_COUNT
     do
-      if (number_of_layers(profile, 2*count) > max_layers) count = largest_count(profile, max_layers)
+      if (number_of_layers(profile, count) > max_layers) count = largest_count(profile, max_layers)
       if (count < 1) then
         call report(info, FUGE_ERR_ITERATION_LIMIT, 'max_layers = '//text(max_layers)//' are too few: this profile ' &
-                    //'has at least '//text(number_of_layers(profile, 2)))
+                    //'has at least '//text(nint(min(real(huge(1), dp), number_of_layers(profile, 1)))))
         return
       end if
       call make_layers(profile, count, 1, half, info)
       if (.not. info%failed()) call make_layers(profile, count, 2, layers, info)
       if (info%failed()) return
-      layers%error = ERROR_OF_DIFFERENCE*largest_difference(half, layers)
+      call find_largest_difference(half, layers, difference, info)
+      if (info%failed()) return
+      layers%error = ERROR_OF_DIFFERENCE*difference
       if (layers%error <= tolerance) return
-      if (number_of_layers(profile, 2*(count + 1)) > max_layers) exit
-      count = max(count + 1, ceiling(count*min(real(MOST_GROWTH, dp), sqrt(layers%error/(AIM*tolerance)))))
+      if (number_of_layers(profile, count + 1) > max_layers) exit
+      growth = min(real(MOST_GROWTH, dp), sqrt(layers%error/(AIM*tolerance)))
+      count = max(count + 1, ceiling(min(real(max_layers, dp), count*growth)))
     end do
     layers_needed = nint(min(1.0e9_dp, size(layers%thickness)*sqrt(layers%error/(AIM*tolerance))))
     call report(info, FUGE_ERR_ITERATION_LIMIT, 'max_layers = '//text(max_layers)//' are too few for tolerance = ' &
@@ -273,29 +283,37 @@ contains
     if (profile%depth(k + 1) > profile%depth(k)) layers = max(1, nint(count*profile%change(k)))
   end function layers_in
 
-  !> All layers if there are about `halves`/2 where the profile changes, each of them in halves.
-  pure function number_of_layers(profile, halves) result(layers)
+  !> All layers if there are about `count` where the profile changes, each of them in halves: they may be more than an
+  !> integer holds.
+  pure function number_of_layers(profile, count) result(layers)
     type(depth_profile), intent(in) :: profile
-    integer, intent(in) :: halves
-    integer :: layers
+    integer, intent(in) :: count
+    real(dp) :: layers
     integer :: k
 
-    layers = 0
+    layers = 0.0_dp
     do k = 1, size(profile%change)
-      layers = layers + layers_in(profile, k, halves/2)*merge(2, 1, profile%change(k) > 0.0_dp)
+      layers = layers + merge(2.0_dp, 1.0_dp, profile%change(k) > 0.0_dp)*real(layers_in(profile, k, count), dp)
     end do
   end function number_of_layers
 
-  !> The largest count, in halves, that has no more than `max_layers`; 0 if there is none.
+  !> The largest count that has no more than `max_layers`, in halves; 0 if there is none. By bisection: more have not
+  !> fewer.
   pure function largest_count(profile, max_layers) result(count)
     type(depth_profile), intent(in) :: profile
     integer, intent(in) :: max_layers
     integer :: count
+    integer :: middle, too_many
 
-    count = max_layers/2 + 1
-    do while (count > 0)
-      if (number_of_layers(profile, 2*count) <= max_layers) return
-      count = count - 1
+    count = 0
+    too_many = max(max_layers, 0)/2 + 2
+    do while (too_many - count > 1)
+      middle = count + (too_many - count)/2
+      if (number_of_layers(profile, middle) <= max_layers) then
+        count = middle
+      else
+        too_many = middle
+      end if
     end do
   end function largest_count
 
@@ -357,17 +375,22 @@ contains
     end do
   end function interface_depth
 
-  !> The largest relative difference of the displacements of the surface of two stacks by waves of pressure.
-  function largest_difference(one, other) result(difference)
+  !> The largest relative `difference` of the displacements of the surface of two stacks by waves of pressure.
+  !> FUGE_ERR_MEMORY.
+  subroutine find_largest_difference(one, other, difference, info)
     type(fuge_graded_layers), intent(in) :: one, other
-    real(dp) :: difference
+    real(dp), intent(out) :: difference
+    type(fuge_info), intent(inout) :: info
     type(layer_stack) :: stack_of_one, stack_of_other
     real(dp) :: contrast, q, shortest
+    integer :: stat
 
     difference = 0.0_dp
     if (size(one%thickness) == size(other%thickness)) return
-    stack_of_one = bonded_stack(one%thickness, one%young, one%poisson)
-    stack_of_other = bonded_stack(other%thickness, other%young, other%poisson)
+    call bond_layers(one%thickness, one%young, one%poisson, stack_of_one, stat)
+    if (stat == 0) call bond_layers(other%thickness, other%young, other%poisson, stack_of_other, stat)
+    call require_memory(stat, 'a graded body of', size(other%thickness), 'layers', info)
+    if (stat /= 0) return
     contrast = maxval(other%young, mask=ieee_is_finite(other%young))/minval(other%young)
     q = LONGEST_WAVE/(contrast*sum(other%thickness))
     shortest = SHORTEST_WAVE/other%thickness(1)
@@ -376,7 +399,7 @@ contains
                                        /(stack_of_other%wave_factor(q)*top_compliance(other)) - 1.0_dp))
       q = q*RATIO_OF_WAVES
     end do
-  end function largest_difference
+  end subroutine find_largest_difference
 
   !> (1 - nu**2)/E of the first layer.
   pure function top_compliance(layers) result(compliance)

@@ -15,7 +15,7 @@ module fuge_layer_interior
   implicit none
   private
 
-  public :: cut_at, layer_at
+  public :: cut_at, find_cut, layer_at
 
   !> Depths that differ by less are the same: the caller may have added the thicknesses up in another order, and no
   !> layer is as thin.
@@ -51,18 +51,32 @@ contains
     integer :: layer
     real(dp) :: bottom
 
+    bottom = 0.0_dp
     do layer = 1, size(stack%thickness)
-      bottom = sum(stack%thickness(:layer))
+      bottom = bottom + stack%thickness(layer)
       if (is_at(depth, bottom) .and. .not. below .or. depth < bottom .and. .not. is_at(depth, bottom)) return
     end do
   end function layer_at
 
-  !> The body `stack` at the `depth` >= 0: at an interface, to rounding, in the layer above it, or `below`.
+  !> As `find_cut`, for a stack of few layers.
   pure function cut_at(stack, depth, below) result(cut)
     type(layer_stack), intent(in) :: stack
     real(dp), intent(in) :: depth
     logical, intent(in) :: below
     type(layer_cut) :: cut
+    integer :: stat
+
+    call find_cut(stack, depth, below, cut, stat)
+  end function cut_at
+
+  !> The body `stack` at the `depth` >= 0: at an interface, to rounding, in the layer above it, or `below`. `stat` as in
+  !> an allocate statement; other than 0, the cut is of no use.
+  pure subroutine find_cut(stack, depth, below, cut, stat)
+    type(layer_stack), intent(in) :: stack
+    real(dp), intent(in) :: depth
+    logical, intent(in) :: below
+    type(layer_cut), intent(out) :: cut
+    integer, intent(out) :: stat
     real(dp) :: bottom, top
     integer :: k, layers
 
@@ -74,22 +88,47 @@ contains
     if (layers > 0) cut%thickness_of_top = stack%thickness(1)
     cut%shear = stack%shear(k)
     cut%poisson = stack%poisson(k)
-    cut%stack = stack
     cut%above = k
     if (is_at(depth, top)) then
       cut%above = k - 1
       cut%below = k > 1
-      return
+      call copy_layers(stack, 0, cut%stack, stat)
+    else if (k <= layers .and. is_at(depth, bottom)) then
+      call copy_layers(stack, 0, cut%stack, stat)
+    else
+      call copy_layers(stack, k, cut%stack, stat)
+      if (stat /= 0) return
+      cut%stack%thickness(k) = depth - top
+      if (k <= layers) cut%stack%thickness(k + 1) = bottom - depth
     end if
-    if (k <= layers) then
-      if (is_at(depth, bottom)) return
-    end if
-    cut%stack%thickness = [stack%thickness(:k - 1), depth - top, stack%thickness(k:)]
-    if (k <= layers) cut%stack%thickness(k + 1) = bottom - depth
-    cut%stack%shear = [stack%shear(:k), stack%shear(k:)]
-    cut%stack%poisson = [stack%poisson(:k), stack%poisson(k:)]
-    cut%stack%bonded = [stack%bonded(:k - 1), .true., stack%bonded(k:)]
-  end function cut_at
+  end subroutine find_cut
+
+  !> `copy`: the layers of `stack`, of which number `twice`, or the half-space below, becomes two that are bonded; 0 is
+  !> none. The thickness of the upper one is not defined if it is part of the half-space. `stat` as in an allocate
+  !> statement.
+  pure subroutine copy_layers(stack, twice, copy, stat)
+    type(layer_stack), intent(in) :: stack
+    integer, intent(in) :: twice
+    type(layer_stack), intent(inout) :: copy
+    integer, intent(out) :: stat
+    integer :: from, k, layers, more
+
+    layers = size(stack%thickness)
+    more = merge(1, 0, twice > 0)
+    call copy%make_room(layers + more, stat)
+    if (stat /= 0) return
+    do k = 1, layers + more + 1
+      from = k
+      if (twice > 0 .and. k > twice) from = k - 1
+      copy%shear(k) = stack%shear(from)
+      copy%poisson(k) = stack%poisson(from)
+      if (k > layers + more) exit
+      if (from > layers) cycle
+      copy%thickness(k) = stack%thickness(from)
+      copy%bonded(k) = stack%bonded(from)
+    end do
+    if (twice > 0) copy%bonded(twice) = .true.
+  end subroutine copy_layers
 
   !> Is the `depth` that of an `interface`, which is a sum of thicknesses?
   pure function is_at(depth, interface)

@@ -6,7 +6,7 @@ module fuge_layer_stack
   implicit none
   private
 
-  public :: bonded_stack, layer_number
+  public :: bond_layers, layer_number
 
   !> Layers on a half-space or a rigid base, from the surface down.
   type, extends(wave_symbol), public :: layer_stack
@@ -18,6 +18,7 @@ module fuge_layer_stack
     !> Is the bottom of each layer bonded? Otherwise it slides without friction. (layers)
     logical, allocatable :: bonded(:)
   contains
+    procedure :: make_room
     procedure :: wave_factor
     procedure :: compliance_below
     procedure :: factor_of_longest
@@ -27,19 +28,29 @@ module fuge_layer_stack
 
 contains
 
-  !> The stack of bonded layers: `thickness` (layers), Young's moduli and Poisson's ratios (layers + 1), as checked by
-  !> the caller.
-  pure function bonded_stack(thickness, young, poisson) result(stack)
-    real(dp), intent(in) :: thickness(:), young(:), poisson(:)
-    type(layer_stack) :: stack
+  !> Room for a number of layers, in a stack that has none yet. `stat` as in an allocate statement.
+  pure subroutine make_room(self, layers, stat)
+    class(layer_stack), intent(inout) :: self
+    integer, intent(in) :: layers
+    integer, intent(out) :: stat
 
-    allocate (stack%thickness(size(thickness)), stack%bonded(size(thickness)), stack%poisson(size(young)), &
-              stack%shear(size(young)))
+    allocate (self%thickness(layers), self%bonded(layers), self%poisson(layers + 1), self%shear(layers + 1), stat=stat)
+  end subroutine make_room
+
+  !> The stack of bonded layers: `thickness` (layers), Young's moduli and Poisson's ratios (layers + 1), as checked by
+  !> the caller. `stat` as in an allocate statement.
+  pure subroutine bond_layers(thickness, young, poisson, stack, stat)
+    real(dp), intent(in) :: thickness(:), young(:), poisson(:)
+    type(layer_stack), intent(out) :: stack
+    integer, intent(out) :: stat
+
+    call stack%make_room(size(thickness), stat)
+    if (stat /= 0) return
     stack%thickness = thickness
     stack%bonded = .true.
     stack%poisson = poisson
     stack%shear = young/young(1)*(1.0_dp + poisson(1))/(1.0_dp + poisson)
-  end function bonded_stack
+  end subroutine bond_layers
 
   !> Is it more than a half-space?
   elemental function has_layers(self) result(has)

@@ -1,12 +1,13 @@
 !> Coated and layered bodies: what the operators of lines and areas have to know of them.
 module fuge_layered_body_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
+  use fuge_constants, only: LARGEST_EXPONENT_OF_4
   use fuge_kinds, only: dp
   use fuge_layer_stack, only: layer_stack
   use fuge_mixture_fit, only: fit_mixture, wave_symbol
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE, FUGE_ERR_SIZE, &
-    FUGE_ERR_WIDTH
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_MODULUS, &
+    FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
   use fuge_wave_mixture, only: wave_mixture
   implicit none
   private
@@ -47,8 +48,7 @@ module fuge_layered_body_type
 
   !> T of the two bodies together.
   type, extends(wave_symbol) :: contact_symbol
-    type(layer_stack) :: stack(2)
-    real(dp) :: share(2) = 0.0_dp
+    type(fuge_layered_body), pointer :: bodies => null()
   contains
     procedure :: wave_factor
   end type contact_symbol
@@ -63,7 +63,7 @@ contains
   !> friction, and never comes off. `e_star_other`: E/(1 - nu**2) of the other body, a half-space; infinite, the
   !> default, if it is rigid. `other`: the other body if it has layers; it comes with no third one. Seven arguments are
   !> of one body each or named by the caller. Errors, which leave the description as it was: FUGE_ERR_SIZE,
-  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_MEMORY.
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
   subroutine set(self, thickness, young, poisson, info, bonded, e_star_other, other)
     class(fuge_layered_body), intent(inout) :: self
     real(dp), intent(in) :: thickness(:), young(:), poisson(:)
@@ -71,47 +71,61 @@ contains
     logical, intent(in), optional :: bonded(:)
     real(dp), intent(in), optional :: e_star_other
     class(fuge_layered_body), intent(in), optional :: other
-    type(fuge_layered_body) :: new
+    type(fuge_layered_body), target :: new
     real(dp) :: compliance(2)
-    logical :: joined(size(thickness))
+    integer :: stat
 
-    joined = .true.
     if (present(bonded)) then
       if (size(bonded) /= size(thickness)) then
         call report(info, FUGE_ERR_SIZE, 'bonded has '//text(size(bonded))//' numbers for '//text(size(thickness)) &
                     //' layers')
         return
       end if
-      joined = bonded
     end if
     call check_layers(thickness, young, poisson, info)
     if (info%failed()) return
-    call join_layers(thickness, young, poisson, joined, new%first)
+    call join_layers(thickness, young, poisson, bonded, new%first, stat)
+    call require_memory(stat, '', size(thickness), 'layers', info)
+    if (stat /= 0) return
     compliance = [(1.0_dp - poisson(1)**2)/young(1), 0.0_dp]
     if (present(other)) then
       if (.not. other%is_set()) call report(info, FUGE_ERR_CALL_ORDER, 'other: no layers are set')
       if (info%failed()) return
-      new%second = other%first
+      call copy_stack(other%first, new%second, stat)
+      call require_memory(stat, 'the layers of the other body', info)
+      if (stat /= 0) return
       compliance(2) = other%share(1)/other%modulus
     else if (present(e_star_other)) then
       if (ieee_is_nan(e_star_other) .or. .not. e_star_other > 0.0_dp) then
         call report(info, FUGE_ERR_MODULUS, 'e_star_other = '//text(e_star_other) &
                     //' is not positive: it is E/(1 - nu^2) of the other body, infinite if it is rigid')
-        return
+      else if (is_out_of_range(e_star_other)) then
+        call report(info, FUGE_ERR_OVERFLOW, 'e_star_other = '//text(e_star_other) &
+                    //' is out of range: choose other units')
       end if
+      if (info%failed()) return
       compliance(2) = 1.0_dp/e_star_other
     end if
     new%modulus = 1.0_dp/sum(compliance)
     new%share = compliance*new%modulus
     call fit(new, info)
     if (info%failed()) return
-    self%first = new%first
-    self%second = new%second
+    call move_stack(new%first, self%first)
+    call move_stack(new%second, self%second)
     self%share = new%share
     self%modulus = new%modulus
     self%mixture = new%mixture
     self%error = new%error
   end subroutine set
+
+  !> Is it so large or small that products would overflow? Not if it is infinite.
+  pure function is_out_of_range(value)
+    real(dp), intent(in) :: value
+    logical :: is_out_of_range
+
+    is_out_of_range = .false.
+    if (ieee_is_finite(value)) is_out_of_range = abs(exponent(value)) > LARGEST_EXPONENT_OF_4
+  end function is_out_of_range
 
   !> Refuse what makes no layers.
   subroutine check_layers(thickness, young, poisson, info)
@@ -131,6 +145,9 @@ contains
                       //' is not a finite number')
         else if (.not. thickness(k) > 0.0_dp) then
           call report(info, FUGE_ERR_WIDTH, 'thickness '//text(k)//' = '//text(thickness(k))//' is not positive')
+        else if (is_out_of_range(thickness(k))) then
+          call report(info, FUGE_ERR_OVERFLOW, 'thickness '//text(k)//' = '//text(thickness(k)) &
+                      //' is out of range: choose another unit of length')
         end if
       end if
       if (.not. info%failed()) call check_material(k, k == size(young) .and. k > 1, young(k), poisson(k), info)
@@ -158,52 +175,68 @@ contains
     else if (.not. young > 0.0_dp .or. .not. (rigid .or. ieee_is_finite(young))) then
       call report(info, FUGE_ERR_MODULUS, 'young '//text(k)//' = '//text(young)//' is not a positive number' &
                   //': the last one only, of a rigid base, may be infinite')
+    else if (is_out_of_range(young)) then
+      call report(info, FUGE_ERR_OVERFLOW, 'young '//text(k)//' = '//text(young) &
+                  //' is out of range: choose other units')
     else if (poisson < 0.0_dp .or. poisson > 0.5_dp) then
       call report(info, FUGE_ERR_MODULUS, 'poisson '//text(k)//' = '//text(poisson)//' is not in 0 .. 0.5')
     end if
   end subroutine check_material
 
-  !> The stack of these layers. What is bonded to a layer of the same material is one with it.
-  pure subroutine join_layers(thickness, young, poisson, bonded, stack)
+  !> The stack of these layers, all bonded unless `bonded` says otherwise. What is bonded to a layer of the same
+  !> material is one with it. `stat` as in an allocate statement.
+  subroutine join_layers(thickness, young, poisson, bonded, stack, stat)
     real(dp), intent(in) :: thickness(:), young(:), poisson(:)
-    logical, intent(in) :: bonded(:)
+    logical, intent(in), optional :: bonded(:)
     type(layer_stack), intent(out) :: stack
-    real(dp) :: height(size(thickness))
-    integer :: count, k, layers, material(size(thickness) + 1)
-    logical :: joined(size(thickness))
+    integer, intent(out) :: stat
+    integer :: count, k, layers
 
     layers = size(thickness)
     count = 0
     do k = 1, layers
-      if (continues(k)) then
-        height(count) = height(count) + thickness(k)
-      else
-        count = count + 1
-        height(count) = thickness(k)
-        material(count) = k
-      end if
-      joined(count) = bonded(k)
+      if (.not. is_one_with_next(k)) count = count + 1
     end do
-    if (count > 0) then
-      if (joined(count) .and. is_same(material(count), layers + 1)) count = count - 1
-    end if
-    material(count + 1) = layers + 1
-    allocate (stack%thickness(count), stack%bonded(count), stack%poisson(count + 1), stack%shear(count + 1))
-    stack%thickness = height(:count)
-    stack%bonded = joined(:count)
-    stack%poisson = poisson(material(:count + 1))
-    stack%shear = young(material(:count + 1))/young(1)*(1.0_dp + poisson(1))/(1.0_dp + stack%poisson)
+    call stack%make_room(count, stat)
+    if (stat /= 0) return
+    count = 1
+    call begin_layer(1)
+    do k = 1, layers
+      if (count <= size(stack%thickness)) then
+        stack%thickness(count) = stack%thickness(count) + thickness(k)
+        stack%bonded(count) = is_bonded(k)
+      end if
+      if (is_one_with_next(k)) cycle
+      count = count + 1
+      call begin_layer(k + 1)
+    end do
 
   contains
 
-    !> Is layer `k` one with the layer above it?
-    pure function continues(k)
+    !> Number `count` of the stack begins with the material `k`.
+    subroutine begin_layer(k)
       integer, intent(in) :: k
-      logical :: continues
 
-      continues = k > 1
-      if (continues) continues = bonded(max(k - 1, 1)) .and. is_same(k - 1, k)
-    end function continues
+      if (count <= size(stack%thickness)) stack%thickness(count) = 0.0_dp
+      stack%poisson(count) = poisson(k)
+      stack%shear(count) = young(k)/young(1)*(1.0_dp + poisson(1))/(1.0_dp + poisson(k))
+    end subroutine begin_layer
+
+    pure function is_bonded(k)
+      integer, intent(in) :: k
+      logical :: is_bonded
+
+      is_bonded = .true.
+      if (present(bonded)) is_bonded = bonded(k)
+    end function is_bonded
+
+    !> Is layer `k` one with what is below it?
+    pure function is_one_with_next(k)
+      integer, intent(in) :: k
+      logical :: is_one_with_next
+
+      is_one_with_next = is_bonded(k) .and. is_same(k, k + 1)
+    end function is_one_with_next
 
     !> Are two materials the same?
     pure function is_same(i, j)
@@ -215,27 +248,59 @@ contains
 
   end subroutine join_layers
 
+  !> `copy`: the layers of `stack`, which may not be set. `stat` as in an allocate statement.
+  pure subroutine copy_stack(stack, copy, stat)
+    type(layer_stack), intent(in) :: stack
+    type(layer_stack), intent(inout) :: copy
+    integer, intent(out) :: stat
+
+    stat = 0
+    if (.not. allocated(stack%thickness)) return
+    call copy%make_room(size(stack%thickness), stat)
+    if (stat /= 0) return
+    copy%thickness = stack%thickness
+    copy%bonded = stack%bonded
+    copy%poisson = stack%poisson
+    copy%shear = stack%shear
+  end subroutine copy_stack
+
+  !> Without a copy, for which there may be no memory.
+  pure subroutine move_stack(from, to)
+    type(layer_stack), intent(inout) :: from, to
+
+    call move_alloc(from%thickness, to%thickness)
+    call move_alloc(from%bonded, to%bonded)
+    call move_alloc(from%poisson, to%poisson)
+    call move_alloc(from%shear, to%shear)
+  end subroutine move_stack
+
   !> Fit the mixture to both bodies; no mixture if neither has layers. Error: FUGE_ERR_MEMORY.
   subroutine fit(layers, info)
-    type(fuge_layered_body), intent(inout) :: layers
+    type(fuge_layered_body), intent(inout), target :: layers
     type(fuge_info), intent(inout) :: info
     type(contact_symbol) :: symbol
     real(dp) :: limit, longest, shortest
-    integer :: k
 
-    symbol%stack(1) = layers%first
-    symbol%stack(2) = layers%second
-    symbol%share = layers%share
+    symbol%bodies => layers
     shortest = huge(shortest)
     longest = 0.0_dp
     limit = 0.0_dp
-    do k = 1, 2
-      limit = limit + symbol%share(k)*symbol%stack(k)%factor_of_longest()
-      if (.not. symbol%stack(k)%has_layers()) cycle
-      shortest = min(shortest, symbol%stack(k)%thickness(1))
-      longest = max(longest, long_length(symbol%stack(k)))
-    end do
+    call include_stack(layers%first, layers%share(1))
+    call include_stack(layers%second, layers%share(2))
     if (longest > 0.0_dp) call fit_mixture(symbol, shortest, longest, limit, layers%mixture, layers%error, info)
+
+  contains
+
+    subroutine include_stack(stack, share)
+      type(layer_stack), intent(in) :: stack
+      real(dp), intent(in) :: share
+
+      limit = limit + share*stack%factor_of_longest()
+      if (.not. stack%has_layers()) return
+      shortest = min(shortest, stack%thickness(1))
+      longest = max(longest, long_length(stack))
+    end subroutine include_stack
+
   end subroutine fit
 
   !> The length from which on waves are long.
@@ -363,12 +428,8 @@ contains
     class(contact_symbol), intent(in) :: self
     real(dp), intent(in) :: q
     real(dp) :: factor
-    integer :: k
 
-    factor = 0.0_dp
-    do k = 1, 2
-      if (self%share(k) > 0.0_dp) factor = factor + self%share(k)*self%stack(k)%wave_factor(q)
-    end do
+    factor = self%bodies%factor_of_wave(q)
   end function wave_factor
 
 end module fuge_layered_body_type

@@ -11,7 +11,7 @@ module fuge_c_layer_stress
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_layered_halfplane_depths, only: fuge_layered_halfplane_displacement_grid, fuge_layered_halfplane_stress_grid
   use fuge_layered_halfspace_depths, only: fuge_layered_halfspace_displacement_grid, fuge_layered_halfspace_stress_grid
-  use fuge_status, only: fuge_info
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
@@ -144,10 +144,9 @@ contains
     call find_array(n, force, 'force', forces, info)
     call find_results(interfaces, peaks, info)
     call find_body(layers, thickness, young, poisson, bonded, body, info)
-    if (.not. info%failed()) then
-      allocate (found(body%interfaces() + 1))
-      call fuge_layered_halfplane_interfaces(body, spacing, forces, int(element), int(boundary), found, info)
-    end if
+    call make_room(body, found, info)
+    if (.not. info%failed()) call fuge_layered_halfplane_interfaces(body, spacing, forces, int(element), &
+                                                                    int(boundary), found, info)
     if (.not. info%failed()) call give_peaks(found, interfaces, peaks)
     status = report_to_c(info, message, length)
   end function c_layered_halfplane_interfaces
@@ -170,11 +169,9 @@ contains
     call find_array(int(cells_of(nx, ny, info), c_int), force, 'force', forces, info)
     call find_results(interfaces, peaks, info)
     call find_body(layers, thickness, young, poisson, bonded, body, info)
-    if (.not. info%failed()) then
-      allocate (found(body%interfaces() + 1))
-      call fuge_layered_halfspace_interfaces(body, int(nx), int(ny), spacing_x, spacing_y, forces, int(boundary), &
-                                             found, info)
-    end if
+    call make_room(body, found, info)
+    if (.not. info%failed()) call fuge_layered_halfspace_interfaces(body, int(nx), int(ny), spacing_x, spacing_y, &
+                                                                    forces, int(boundary), found, info)
     if (.not. info%failed()) call give_peaks(found, interfaces, peaks)
     status = report_to_c(info, message, length)
   end function c_layered_halfspace_interfaces
@@ -190,21 +187,36 @@ contains
                                               ieee_value(1.0_c_double, ieee_positive_inf), body, info)
   end subroutine find_body
 
-  !> The sides of interfaces, all above unless `below` is given.
+  !> The sides of interfaces, all above unless `below` is given. FUGE_ERR_MEMORY.
   subroutine find_sides(depths, below, lower, info)
     integer(c_int), intent(in) :: depths
     type(c_ptr), intent(in) :: below
     logical, allocatable, intent(out) :: lower(:)
-    type(fuge_info), intent(in) :: info
+    type(fuge_info), intent(inout) :: info
     integer(c_int), pointer :: given(:)
+    integer :: stat
 
     if (info%failed()) return
-    allocate (lower(depths))
+    allocate (lower(depths), stat=stat)
+    call require_memory(stat, '', int(depths), 'depths', info)
+    if (stat /= 0) return
     lower = .false.
     if (.not. c_associated(below)) return
     call c_f_pointer(below, given, [depths])
     lower = given /= 0
   end subroutine find_sides
+
+  !> Room for the stresses of all interfaces. FUGE_ERR_MEMORY.
+  subroutine make_room(body, found, info)
+    type(fuge_layered_body), intent(in) :: body
+    type(fuge_interface_stress), allocatable, intent(out) :: found(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    if (info%failed()) return
+    allocate (found(body%interfaces() + 1), stat=stat)
+    call require_memory(stat, 'the stresses of', body%interfaces(), 'interfaces', info)
+  end subroutine make_room
 
   subroutine find_results(interfaces, peaks, info)
     type(c_ptr), intent(in) :: interfaces, peaks

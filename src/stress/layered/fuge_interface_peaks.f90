@@ -3,7 +3,6 @@
 module fuge_interface_peaks
   use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
   use fuge_kinds, only: dp
-  use fuge_layer_interior, only: cut_at, layer_cut
   use fuge_layer_stack, only: layer_stack
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_layered_halfplane_depths, only: fuge_layered_halfplane_stress_grid
@@ -15,6 +14,9 @@ module fuge_interface_peaks
   private
 
   public :: fuge_layered_halfplane_interfaces, fuge_layered_halfspace_interfaces
+
+  !> The two sides of an interface.
+  logical, parameter :: BELOW(2) = [.false., .true.]
 
   !> The largest stresses of the surface or of an interface, force per length squared, and the numbers of the cells
   !> above them.
@@ -48,26 +50,30 @@ contains
     real(dp), intent(in) :: spacing_x, spacing_y, force(:)
     type(fuge_interface_stress), intent(inout) :: peaks(:)
     type(fuge_info), intent(out) :: info
-    type(fuge_interface_stress) :: found(size(peaks))
-    real(dp), allocatable :: stress(:, :, :)
-    real(dp) :: depth
-    logical :: below
-    integer :: k, side, stat
+    type(fuge_interface_stress), allocatable :: found(:)
+    type(layer_stack) :: stack
+    real(dp), allocatable :: principal(:, :), stress(:, :, :)
+    integer :: k, side, sides, stat
 
     call check_peaks(body, size(peaks), info)
     if (info%failed()) return
-    allocate (stress(6, size(force), 1), stat=stat)
+    allocate (found(size(peaks)), principal(3, size(force)), stress(6, size(force), 2), stat=stat)
     call require_memory(stat, 'stresses at', size(force), 'cells', info)
+    if (stat /= 0) return
+    stack = body%layers()
     do k = 1, size(peaks)
-      do side = 1, 2
-        if (info%failed()) return
-        call find_side(body, k - 1, side, depth, below)
-        call fuge_layered_halfspace_stress_grid(body, nx, ny, spacing_x, spacing_y, force, boundary, [depth], stress, &
-                                                info, [below])
-        if (.not. info%failed()) call take_side(stress(:, :, 1), depth, side, found(k), info)
+      sides = sides_of(stack, k - 1)
+      found(k)%depth = sum(stack%thickness(:k - 1))
+      call fuge_layered_halfspace_stress_grid(body, nx, ny, spacing_x, spacing_y, force, boundary, &
+                                              spread(found(k)%depth, 1, sides), stress(:, :, :sides), info, &
+                                              BELOW(:sides))
+      do side = 1, sides
+        if (.not. info%failed()) call take_side(stress(:, :, side), side, principal, found(k), info)
       end do
+      if (info%failed()) return
+      if (sides == 1) call copy_side(found(k))
     end do
-    if (.not. info%failed()) peaks = found
+    peaks = found
   end subroutine fuge_layered_halfspace_interfaces
 
   !> The largest stresses at the surface and at each interface below a line of cells, in plane strain.
@@ -81,29 +87,34 @@ contains
     integer, intent(in) :: element, boundary
     type(fuge_interface_stress), intent(inout) :: peaks(:)
     type(fuge_info), intent(out) :: info
-    type(fuge_interface_stress) :: found(size(peaks))
-    type(layer_cut) :: cut
-    real(dp), allocatable :: stress(:, :, :), tensor(:, :)
-    real(dp) :: depth
-    logical :: below
-    integer :: k, side, stat
+    type(fuge_interface_stress), allocatable :: found(:)
+    type(layer_stack) :: stack
+    real(dp), allocatable :: principal(:, :), stress(:, :, :), tensor(:, :)
+    integer :: k, side, sides, stat
 
     call check_peaks(body, size(peaks), info)
     if (info%failed()) return
-    allocate (stress(3, size(force), 1), tensor(6, size(force)), stat=stat)
+    allocate (found(size(peaks)), principal(3, size(force)), stress(3, size(force), 2), tensor(6, size(force)), &
+              stat=stat)
     call require_memory(stat, 'stresses at', size(force), 'cells', info)
+    if (stat /= 0) return
+    stack = body%layers()
     do k = 1, size(peaks)
-      do side = 1, 2
-        if (info%failed()) return
-        call find_side(body, k - 1, side, depth, below)
-        call fuge_layered_halfplane_stress_grid(body, spacing, force, element, boundary, [depth], stress, info, [below])
-        cut = cut_at(body%layers(), depth, below)
-        if (.not. info%failed()) call fuge_halfplane_tensor(stress(:, :, 1), FUGE_PLANE_STRAIN, cut%poisson, tensor, &
-                                                            info)
-        if (.not. info%failed()) call take_side(tensor, depth, side, found(k), info)
+      sides = sides_of(stack, k - 1)
+      found(k)%depth = sum(stack%thickness(:k - 1))
+      call fuge_layered_halfplane_stress_grid(body, spacing, force, element, boundary, &
+                                              spread(found(k)%depth, 1, sides), stress(:, :, :sides), info, &
+                                              BELOW(:sides))
+      do side = 1, sides
+        ! Layer k - 1 is above interface k - 1.
+        if (.not. info%failed()) call fuge_halfplane_tensor(stress(:, :, side), FUGE_PLANE_STRAIN, &
+                                                            stack%poisson(max(k + side - 2, 1)), tensor, info)
+        if (.not. info%failed()) call take_side(tensor, side, principal, found(k), info)
       end do
+      if (info%failed()) return
+      if (sides == 1) call copy_side(found(k))
     end do
-    if (.not. info%failed()) peaks = found
+    peaks = found
   end subroutine fuge_layered_halfplane_interfaces
 
   !> Errors: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE.
@@ -120,48 +131,61 @@ contains
     end if
   end subroutine check_peaks
 
-  !> The depth of `interface` 0, 1, .. from the surface down, and on which side of it `side` is, 1 or 2: below a rigid
-  !> base there is nothing.
-  subroutine find_side(body, interface, side, depth, below)
-    type(fuge_layered_body), intent(in) :: body
-    integer, intent(in) :: interface, side
-    real(dp), intent(out) :: depth
-    logical, intent(out) :: below
-    type(layer_stack) :: stack
+  !> On how many sides of `interface` 0, 1, .. from the surface down there is a layer or a half-space that yields: 1 at
+  !> the surface and at a rigid base.
+  pure function sides_of(stack, interface) result(sides)
+    type(layer_stack), intent(in) :: stack
+    integer, intent(in) :: interface
+    integer :: sides
 
-    depth = 0.0_dp
-    below = .false.
-    if (interface < 1) return
-    stack = body%layers()
-    depth = sum(stack%thickness(:interface))
-    below = side == 2 .and. .not. stack%shear(interface + 1) > huge(1.0_dp)
-  end subroutine find_side
+    sides = 1
+    if (interface > 0) sides = merge(1, 2, stack%shear(interface + 1) > huge(1.0_dp))
+  end function sides_of
 
-  !> Take the largest values of `tensor` (6, cells), on `side` 1 or 2. FUGE_ERR_MEMORY.
-  subroutine take_side(tensor, depth, side, peak, info)
-    real(dp), intent(in) :: tensor(:, :), depth
+  !> Take the largest values of `tensor` (6, cells), on `side` 1 or 2. `principal` (3, cells) is work space.
+  !> FUGE_ERR_MEMORY.
+  subroutine take_side(tensor, side, principal, peak, info)
+    real(dp), intent(in) :: tensor(:, :)
     integer, intent(in) :: side
+    real(dp), intent(inout) :: principal(:, :)
     type(fuge_interface_stress), intent(inout) :: peak
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: principal(:, :)
-    integer :: stat
 
-    allocate (principal(3, size(tensor, 2)), stat=stat)
-    call require_memory(stat, 'principal stresses at', size(tensor, 2), 'cells', info)
-    if (stat == 0) call fuge_principal_stresses(tensor, principal, info)
+    call fuge_principal_stresses(tensor, principal, info)
     if (info%failed()) return
     if (side == 1) then
-      peak%depth = depth
       peak%cell_above = maxloc(principal(1, :), dim=1)
       peak%tension_above = principal(1, peak%cell_above)
-      peak%cell_of_shear = maxloc(hypot(tensor(4, :), tensor(5, :)), dim=1)
-      peak%shear = hypot(tensor(4, peak%cell_of_shear), tensor(5, peak%cell_of_shear))
       peak%cell_of_opening = maxloc(tensor(3, :), dim=1)
       peak%opening = tensor(3, peak%cell_of_opening)
+      call take_shear(tensor, peak)
     else
       peak%cell_below = maxloc(principal(1, :), dim=1)
       peak%tension_below = principal(1, peak%cell_below)
     end if
   end subroutine take_side
+
+  !> Take the largest shear stress of `tensor` (6, cells).
+  pure subroutine take_shear(tensor, peak)
+    real(dp), intent(in) :: tensor(:, :)
+    type(fuge_interface_stress), intent(inout) :: peak
+    real(dp) :: shear
+    integer :: cell
+
+    do cell = 1, size(tensor, 2)
+      shear = hypot(tensor(4, cell), tensor(5, cell))
+      if (cell > 1 .and. .not. shear > peak%shear) cycle
+      peak%cell_of_shear = cell
+      peak%shear = shear
+    end do
+  end subroutine take_shear
+
+  !> Where there is nothing below the stresses are those above.
+  pure subroutine copy_side(peak)
+    type(fuge_interface_stress), intent(inout) :: peak
+
+    peak%tension_below = peak%tension_above
+    peak%cell_below = peak%cell_above
+  end subroutine copy_side
 
 end module fuge_interface_peaks

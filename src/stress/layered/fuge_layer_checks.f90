@@ -1,7 +1,7 @@
 !> A body of layers at the depths that the caller asks for.
 module fuge_layer_checks
   use fuge_kinds, only: dp
-  use fuge_layer_interior, only: cut_at, layer_at, layer_cut
+  use fuge_layer_interior, only: find_cut, layer_at, layer_cut
   use fuge_layer_stack, only: layer_stack
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_number_text, only: index_text, text
@@ -9,7 +9,7 @@ module fuge_layer_checks
   implicit none
   private
 
-  public :: cut_body, depth_in_top, find_layers, number_in_top, points_in_top
+  public :: cut_body, find_depths_in_top, find_layers, number_in_top, points_in_top
 
 contains
 
@@ -39,7 +39,9 @@ contains
       if (info%failed()) return
       lower = .false.
       if (present(below)) lower = below(k)
-      cut(k) = cut_at(stack, depth(k), lower)
+      call find_cut(stack, depth(k), lower, cut(k), stat)
+      call require_memory(stat, 'layers at', size(depth), 'depths', info)
+      if (stat /= 0) return
       if (.not. cut(k)%shear > huge(1.0_dp)) cycle
       call report(info, FUGE_ERR_GRID, 'depth '//text(k)//' = '//text(depth(k)) &
                   //' is in the rigid base: the layers are '//text(sum(stack%thickness))//' thick')
@@ -102,14 +104,22 @@ contains
     end do
   end subroutine points_in_top
 
-  !> Those of the depths that are in the top layer.
-  pure function depth_in_top(cut, depth) result(in_top)
+  !> `in_top`: those of the depths that are in the top layer. FUGE_ERR_MEMORY.
+  pure subroutine find_depths_in_top(cut, depth, in_top, info)
     type(layer_cut), intent(in) :: cut(:)
     real(dp), intent(in) :: depth(:)
-    real(dp), allocatable :: in_top(:)
+    real(dp), allocatable, intent(out) :: in_top(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: k, stat
 
-    in_top = pack(depth, cut%layer == 1)
-  end function depth_in_top
+    if (info%failed()) return
+    allocate (in_top(count(cut%layer == 1)), stat=stat)
+    call require_memory(stat, '', size(depth), 'depths', info)
+    if (stat /= 0) return
+    do k = 1, size(depth)
+      if (cut(k)%layer == 1) in_top(number_in_top(cut, k)) = depth(k)
+    end do
+  end subroutine find_depths_in_top
 
   !> The number of depth `k` among them.
   pure function number_in_top(cut, k) result(number)

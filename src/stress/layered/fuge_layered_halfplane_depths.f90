@@ -11,10 +11,12 @@ module fuge_layered_halfplane_depths
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_halfspace_depths, only: convolve_tables
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: cut_body, depth_in_top, number_in_top
+  use fuge_layer_checks, only: cut_body, find_depths_in_top, number_in_top
   use fuge_layer_interior, only: layer_cut
   use fuge_layered_body_type, only: fuge_layered_body
-  use fuge_mixture_sums, only: mixture_sums, PLACES_OF, WAVES_OF
+  use fuge_memory, only: check_memory
+  use fuge_mixture_sums, only: bytes_of_sums, mixture_sums, PLACES_OF, WAVES_OF
+  use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ELEMENT
   use fuge_stress_grid_checks, only: check_grid_strain
   implicit none
@@ -33,8 +35,10 @@ module fuge_layered_halfplane_depths
     type(mixture_sums) :: sums
     type(layer_cut), allocatable :: cut(:)
     type(depth_mixture), allocatable :: mixture(:)
-    !> Factors of waves; what a half-plane gives, (components, n, depths in the top layer).
-    real(dp), allocatable :: factor(:, :), plain(:, :, :)
+    !> Factors of waves, or influence at places.
+    real(dp), allocatable :: factor(:, :)
+    !> The depths in the top layer, and what a half-plane gives there, (components, n, depths).
+    real(dp), allocatable :: depth_in_top(:), plain(:, :, :)
   end type grid_work
 
 contains
@@ -69,7 +73,7 @@ contains
     end if
     call start(work, spacing, force, element, boundary, depth, 3, info)
     if (.not. info%failed()) call fuge_halfplane_stress_grid(spacing, force, element, boundary, &
-                                                             depth_in_top(work%cut, depth), work%plain, info)
+                                                             work%depth_in_top, work%plain, info)
     do k = 1, size(depth)
       if (info%failed()) exit
       call find_field(work, work%mixture(k), [1, 2, 3], stress(:, :, k))
@@ -123,7 +127,7 @@ contains
     compliance = (1.0_dp + body%poisson())/body%young()
     if (.not. info%failed()) call fuge_halfplane_displacement_grid(spacing, force, element, boundary, body%young(), &
                                                                    body%poisson(), FUGE_PLANE_STRAIN, &
-                                                                   depth_in_top(work%cut, depth), work%plain, info)
+                                                                   work%depth_in_top, work%plain, info)
     do k = 1, size(depth)
       if (info%failed()) exit
       call find_field(work, work%mixture(k), [5, 4], displacement(2:1:-1, :, k))
@@ -142,22 +146,27 @@ contains
     real(dp), intent(in) :: spacing, force(:), depth(:)
     integer, intent(in) :: element, boundary, components
     type(fuge_info), intent(inout) :: info
-    integer :: k, n, stat
+    integer :: first, k, kind(2), n, stat
 
     if (element == FUGE_HAT) call report(info, FUGE_ERR_ELEMENT, 'element FUGE_HAT: in layers the pressure is ' &
                                          //'constant on each cell: use FUGE_MEAN, whose influence is the same')
-    if (info%failed() .or. size(depth) < 1) return
+    call find_depths_in_top(work%cut, depth, work%depth_in_top, info)
+    if (info%failed()) return
     work%periodic = boundary == FUGE_PERIODIC
     n = size(force)
-    allocate (work%mixture(size(depth)), work%plain(components, n, count(work%cut%layer == 1)), &
-              work%factor(0:n/2, 0:0), stat=stat)
+    allocate (work%mixture(size(depth)), work%plain(components, n, size(work%depth_in_top)), &
+              work%factor(0:merge(n/2, n - 1, work%periodic), 0:0), stat=stat)
     call require_memory(stat, 'results at', n, 'cells', info)
+    if (size(depth) < 1) return
     do k = 1, size(depth)
       call fit_at_depths(work%cut(k:k), depth(k:k), work%mixture(k:k), info)
     end do
     if (info%failed()) return
-    call work%sums%prepare([n, 1], [spacing, spacing], [merge(WAVES_OF, PLACES_OF, work%periodic), WAVES_OF], &
-                           minval(work%mixture%first), stat)
+    kind = [merge(WAVES_OF, PLACES_OF, work%periodic), WAVES_OF]
+    first = minval(work%mixture%first)
+    call check_memory(bytes_of_sums([n, 1], [spacing, spacing], kind, first), 'a line of '//text(n)//' cells', info)
+    if (info%failed()) return
+    call work%sums%prepare([n, 1], [spacing, spacing], kind, first, stat)
     call require_memory(stat, 'results at', n, 'cells', info)
     if (.not. info%failed()) call work%waves%set([n, 1], [work%periodic, .true.], .not. work%periodic, info)
     if (.not. info%failed()) call work%waves%transform(force)
@@ -175,30 +184,20 @@ contains
 
     do c = 1, size(component)
       odd = IS_ODD(component(c))
-      field(c, :) = 0.0_dp
+      call work%sums%fill_plane(mixture, FUNCTION_OF(component(c)), odd, 1, work%factor(:, 0))
       if (work%periodic) then
-        work%factor(:, 0) = work%sums%in_plane(mixture, FUNCTION_OF(component(c)), odd, 1)
         work%factor(0, 0) = 0.0_dp
         call work%waves%multiply([odd, .false.], work%factor, field(c, :))
       else
-        field(c, :) = influence(work%sums, mixture, component(c))
+        field(c, :) = work%factor(:, 0)
+        if (FUNCTION_OF(component(c)) == OF_DOWN) field(c, :) = field(c, :) &
+          + work%sums%line_datum(mixture, 1, 2.0_dp*size(field, 2)*work%sums%spacing(1))
       end if
     end do
     if (.not. work%periodic) call convolve_tables(work%waves, reshape([(IS_ODD(component(c)), .false., &
                                                                         c=1, size(component))], &
                                                                       [2, size(component)]), field)
   end subroutine find_field
-
-  !> Component number `c` under unit pressure on a cell of a free surface, at the distances of 0, 1, .. cells.
-  function influence(sums, mixture, c) result(values)
-    type(mixture_sums), intent(in) :: sums
-    type(depth_mixture), intent(in) :: mixture
-    integer, intent(in) :: c
-    real(dp), allocatable :: values(:)
-
-    values = sums%in_plane(mixture, FUNCTION_OF(c), IS_ODD(c), 1)
-    if (FUNCTION_OF(c) == OF_DOWN) values = values + sums%line_datum(mixture, 1, 2.0_dp*size(values)*sums%spacing(1))
-  end function influence
 
   !> What the mean pressure adds on a periodic surface; zz of a half-plane is there already.
   subroutine add_mean(cut, pressure, stress)

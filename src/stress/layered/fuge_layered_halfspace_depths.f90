@@ -12,10 +12,12 @@ module fuge_layered_halfspace_depths
     fuge_halfspace_stress_grid, DISPLACEMENT_KINDS, STRESS_KINDS
   use fuge_halfspace_grid, only: halfspace_grid, periodic, FUGE_PERIODIC_X
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: cut_body, depth_in_top, number_in_top
+  use fuge_layer_checks, only: cut_body, find_depths_in_top, number_in_top
   use fuge_layer_interior, only: layer_cut
   use fuge_layered_body_type, only: fuge_layered_body
-  use fuge_mixture_sums, only: mixture_sums, CIRCLE_OF, PLACES_OF, WAVES_OF
+  use fuge_memory, only: check_memory
+  use fuge_mixture_sums, only: bytes_of_sums, mixture_sums, CIRCLE_OF, PLACES_OF, WAVES_OF
+  use fuge_number_text, only: text
   use fuge_status, only: fuge_info, require_memory
   use fuge_stress_grid_checks, only: check_grid_strain
   implicit none
@@ -33,9 +35,11 @@ module fuge_layered_halfspace_depths
     type(mixture_sums) :: sums
     type(layer_cut), allocatable :: cut(:)
     type(depth_mixture), allocatable :: mixture(:)
-    !> Factors of waves or influence at places; what a half-space gives, (components, nx*ny, depths in the
-    !> top layer).
-    real(dp), allocatable :: factor(:, :), plain(:, :, :)
+    !> Factors of waves or influence at places; the mean along rows of a surface that is periodic along them, at the
+    !> cells across, otherwise 0.
+    real(dp), allocatable :: factor(:, :), mean(:)
+    !> The depths in the top layer, and what a half-space gives there, (components, nx*ny, depths).
+    real(dp), allocatable :: depth_in_top(:), plain(:, :, :)
   end type grid_work
 
 contains
@@ -74,8 +78,7 @@ contains
     end if
     call start(work, force, depth, 6, info)
     if (.not. info%failed()) call fuge_halfspace_stress_grid(nx, ny, spacing_x, spacing_y, force, boundary, &
-                                                             body%poisson(), depth_in_top(work%cut, depth), &
-                                                             work%plain, info)
+                                                             body%poisson(), work%depth_in_top, work%plain, info)
     do k = 1, size(depth)
       if (info%failed()) exit
       call find_field(work, work%mixture(k), 0, stress(:, :, k))
@@ -130,8 +133,8 @@ contains
     ! 1/(2 G) of the top layer.
     compliance = (1.0_dp + body%poisson())/body%young()
     if (.not. info%failed()) call fuge_halfspace_displacement_grid(nx, ny, spacing_x, spacing_y, force, boundary, &
-                                                                   body%young(), body%poisson(), &
-                                                                   depth_in_top(work%cut, depth), work%plain, info)
+                                                                   body%young(), body%poisson(), work%depth_in_top, &
+                                                                   work%plain, info)
     do k = 1, size(depth)
       if (info%failed()) exit
       call find_field(work, work%mixture(k), 6, displacement(:, :, k))
@@ -161,20 +164,28 @@ contains
     real(dp), intent(in) :: force(:), depth(:)
     integer, intent(in) :: components
     type(fuge_info), intent(inout) :: info
-    integer :: extent(2), k, kind(2), stat
+    integer :: extent(2), first, k, kind(2), stat
 
-    if (info%failed() .or. size(depth) < 1) return
-    allocate (work%mixture(size(depth)), work%plain(components, size(force), count(work%cut%layer == 1)), stat=stat)
+    call find_depths_in_top(work%cut, depth, work%depth_in_top, info)
+    if (info%failed()) return
+    allocate (work%mixture(size(depth)), work%plain(components, size(force), size(work%depth_in_top)), stat=stat)
     call require_memory(stat, 'results at', size(force), 'cells', info)
+    if (size(depth) < 1) return
     do k = 1, size(depth)
       call fit_at_depths(work%cut(k:k), depth(k:k), work%mixture(k:k), info)
     end do
     if (info%failed()) return
     kind = PLACES_OF
     where (periodic(work%grid)) kind = merge(WAVES_OF, CIRCLE_OF, work%grid%boundary == FUGE_PERIODIC)
-    call work%sums%prepare(work%grid%cells, work%grid%spacing, kind, minval(work%mixture%first), stat)
     extent = merge(work%grid%cells - 1, work%grid%cells/2, kind == PLACES_OF)
+    first = minval(work%mixture%first)
+    call check_memory(bytes_of_sums(work%grid%cells, work%grid%spacing, kind, first) &
+                      + 8.0_dp*product(real(extent, dp) + 1.0_dp), 'a grid of ' &
+                      //text(work%grid%cells(1))//' by '//text(work%grid%cells(2))//' cells', info)
+    if (info%failed()) return
+    call work%sums%prepare(work%grid%cells, work%grid%spacing, kind, first, stat)
     if (stat == 0) allocate (work%factor(0:extent(1), 0:extent(2)), stat=stat)
+    if (stat == 0) allocate (work%mean(maxval(work%grid%cells)), source=0.0_dp, stat=stat)
     call require_memory(stat, 'results at', size(force), 'cells', info)
     if (.not. info%failed()) call work%waves%set(work%grid%cells, periodic(work%grid), &
                                                  .not. all(periodic(work%grid)), info)
@@ -195,7 +206,8 @@ contains
         work%factor(0, 0) = 0.0_dp
         call work%waves%multiply(KINDS(:, before + c), work%factor, field(c, :))
       else
-        call copy_table(work, mean_of_rows(work, mixture, before + c), field(c, :))
+        if (work%grid%boundary /= FUGE_FREE) call find_mean_of_rows(work, mixture, before + c)
+        call copy_table(work, field(c, :))
       end if
     end do
     if (work%grid%boundary == FUGE_PERIODIC) return
@@ -227,46 +239,47 @@ contains
   end subroutine fill_factor
 
   !> Of a surface that is periodic along one direction: the mean of component `c` along it, at the cells across.
-  function mean_of_rows(work, mixture, c) result(mean)
-    type(grid_work), intent(in) :: work
+  subroutine find_mean_of_rows(work, mixture, c)
+    type(grid_work), intent(inout) :: work
     type(depth_mixture), intent(in) :: mixture
     integer, intent(in) :: c
-    real(dp), allocatable :: mean(:)
     integer :: across, direction
 
     direction = merge(1, 2, work%grid%boundary == FUGE_PERIODIC_X)
     across = 3 - direction
-    allocate (mean(work%grid%cells(across)), source=0.0_dp)
-    if (work%grid%boundary == FUGE_FREE) return
-    if (c == across) then
-      mean = work%sums%in_plane(mixture, OF_NN, .false., across)
-    else if (c == direction) then
-      mean = work%sums%in_plane(mixture, OF_TT, .false., across)
-    else if (c == 3) then
-      mean = work%sums%in_plane(mixture, OF_ZZ, .false., across)
-    else if (c == 6 - across) then
-      mean = work%sums%in_plane(mixture, OF_SLOPE, .true., across)
-    else if (c == 6 + across) then
-      mean = work%sums%in_plane(mixture, OF_ALONG, .true., across)
-    else if (c == 9) then
-      mean = work%sums%in_plane(mixture, OF_DOWN, .false., across) &
-             + work%sums%line_datum(mixture, across, 2.0_dp*size(mean)*work%grid%spacing(across))
-    end if
-    mean = mean/real(work%grid%cells(direction), dp)
-  end function mean_of_rows
+    associate (mean => work%mean(:work%grid%cells(across)))
+      if (c == across) then
+        call work%sums%fill_plane(mixture, OF_NN, .false., across, mean)
+      else if (c == direction) then
+        call work%sums%fill_plane(mixture, OF_TT, .false., across, mean)
+      else if (c == 3) then
+        call work%sums%fill_plane(mixture, OF_ZZ, .false., across, mean)
+      else if (c == 6 - across) then
+        call work%sums%fill_plane(mixture, OF_SLOPE, .true., across, mean)
+      else if (c == 6 + across) then
+        call work%sums%fill_plane(mixture, OF_ALONG, .true., across, mean)
+      else if (c == 9) then
+        call work%sums%fill_plane(mixture, OF_DOWN, .false., across, mean)
+        mean = mean + work%sums%line_datum(mixture, across, 2.0_dp*size(mean)*work%grid%spacing(across))
+      else
+        mean = 0.0_dp
+      end if
+      mean = mean/real(work%grid%cells(direction), dp)
+    end associate
+  end subroutine find_mean_of_rows
 
   !> The table of one component (nx*ny): its mean along the rows and the factor, as far as that goes: along the rows to
   !> half of a period, which is all that counts.
-  pure subroutine copy_table(work, mean, table)
+  pure subroutine copy_table(work, table)
     type(grid_work), intent(in) :: work
-    real(dp), intent(in) :: mean(0:)
     real(dp), intent(inout) :: table(0:)
     integer :: i, j
 
     table = 0.0_dp
     do j = 0, ubound(work%factor, 2)
       do i = 0, ubound(work%factor, 1)
-        table(i + work%grid%cells(1)*j) = work%factor(i, j) + mean(merge(j, i, work%grid%boundary == FUGE_PERIODIC_X))
+        table(i + work%grid%cells(1)*j) = work%factor(i, j) &
+                                          + work%mean(1 + merge(j, i, work%grid%boundary == FUGE_PERIODIC_X))
       end do
     end do
   end subroutine copy_table

@@ -9,6 +9,8 @@ module fuge_mixture_sums
   implicit none
   private
 
+  public :: bytes_of_sums
+
   !> exp(-x**2) is less than rounding.
   real(dp), parameter :: NEGLIGIBLE = 6.3_dp
   !> Gaussians longer than this many times all distances are the first term of their series in 1/t to rounding.
@@ -32,11 +34,36 @@ module fuge_mixture_sums
   contains
     procedure :: prepare
     procedure :: add_product
-    procedure :: in_plane
+    procedure :: fill_plane
     procedure :: line_datum
   end type mixture_sums
 
 contains
+
+  !> Memory of the sums that `prepare` would compute with these arguments.
+  pure function bytes_of_sums(cells, spacing, kind, first) result(bytes)
+    integer, intent(in) :: cells(2), kind(2), first
+    real(dp), intent(in) :: spacing(2)
+    real(dp) :: bytes
+    real(dp) :: values(2)
+    integer :: k
+
+    values = real(merge(cells - 1, cells/2, kind == PLACES_OF), dp) + 1.0_dp
+    bytes = real(count_lengths(cells, spacing, kind, first), dp)*(4.0_dp*values(1) + 3.0_dp*values(2))
+    do k = 1, 2
+      if (kind(k) == CIRCLE_OF) bytes = bytes + 3.0_dp*(real(circle_work(cells(k)), dp) + 1.0_dp)
+    end do
+    bytes = 8.0_dp*bytes
+  end function bytes_of_sums
+
+  !> Lengths from exp(STEP*first) to the last one that counts.
+  pure function count_lengths(cells, spacing, kind, first) result(lengths)
+    integer, intent(in) :: cells(2), kind(2), first
+    real(dp), intent(in) :: spacing(2)
+    integer :: lengths
+
+    lengths = max(1, ceiling(log(longest_length(cells*spacing, kind))/STEP) - first + 1)
+  end function count_lengths
 
   !> Compute the sums for a grid of `cells` (2) with `spacing` (2), length, for lengths from exp(STEP*first) on. `stat`
   !> as in an allocate statement.
@@ -45,16 +72,16 @@ contains
     integer, intent(in) :: cells(2), kind(2), first
     real(dp), intent(in) :: spacing(2)
     integer, intent(out) :: stat
-    integer :: extent(2), nodes
+    integer :: extent(2), lengths
 
     self%cells = cells
     self%spacing = spacing
     self%kind = kind
     self%first = first
-    nodes = max(1, ceiling(log(longest_length(cells*spacing, kind))/STEP) - first + 1)
+    lengths = count_lengths(cells, spacing, kind, first)
     extent = merge(cells - 1, cells/2, kind == PLACES_OF)
-    allocate (self%along_x(0:extent(1), nodes, 0:2), self%along_y(0:extent(2), nodes, 0:2), &
-              self%weighted(0:extent(1), nodes), stat=stat)
+    allocate (self%along_x(0:extent(1), lengths, 0:2), self%along_y(0:extent(2), lengths, 0:2), &
+              self%weighted(0:extent(1), lengths), stat=stat)
     if (stat == 0) call fill(kind(1), cells(1), spacing(1), first, self%along_x, stat)
     if (stat == 0) call fill(kind(2), cells(2), spacing(2), first, self%along_y, stat)
   end subroutine prepare
@@ -127,7 +154,7 @@ contains
     integer, intent(in) :: function, power(2)
     real(dp), intent(inout) :: factor(0:, 0:)
     real(dp) :: rest
-    integer :: j
+    integer :: i, j
 
     if (all(power == 1)) return
     rest = product(sums%spacing)/(4.0_dp*PI)*sum_beyond(sums, mixture, function, POWERS(function) &
@@ -135,7 +162,9 @@ contains
     if (sum(power) > 0) rest = 0.5_dp*rest
     do j = 0, ubound(factor, 2)
       if (power(1) == 1) then
-        factor(:, j) = factor(:, j) - rest*distances(size(factor, 1), sums%spacing(1))
+        do i = 1, ubound(factor, 1)
+          factor(i, j) = factor(i, j) - rest*(i*sums%spacing(1))
+        end do
       else if (power(2) == 1) then
         factor(:, j) = factor(:, j) - rest*(j*sums%spacing(2))
       else
@@ -144,32 +173,20 @@ contains
     end do
   end subroutine add_longer
 
-  !> Of 0, 1, .. `count` - 1 cells.
-  pure function distances(count, spacing) result(length)
-    integer, intent(in) :: count
-    real(dp), intent(in) :: spacing
-    real(dp) :: length(count)
-    integer :: k
-
-    do k = 1, count
-      length(k) = (k - 1)*spacing
-    end do
-  end function distances
-
-  !> What unit pressure on whole rows of cells gives at the cells across them, or waves of it: of a `function` of the
-  !> mixture, and if `slope` the slope of it. The rows lie across `direction`. The displacement along z lacks its datum
-  !> (`line_datum`).
-  function in_plane(self, mixture, function, slope, direction) result(values)
+  !> `values` (0:m), m as of the sums along `direction`: what unit pressure on whole rows of cells, which lie across it,
+  !> gives at the cells across them, or waves of it. Of a `function` of the mixture, and if `slope` the slope of it. The
+  !> displacement along z lacks its datum (`line_datum`).
+  pure subroutine fill_plane(self, mixture, function, slope, direction, values)
     class(mixture_sums), intent(in) :: self
     type(depth_mixture), intent(in) :: mixture
     integer, intent(in) :: function, direction
     logical, intent(in) :: slope
-    real(dp), allocatable :: values(:)
+    real(dp), intent(out) :: values(0:)
     real(dp) :: weight
     integer :: k, order
 
     order = merge(1, 0, slope)
-    allocate (values(size(self%along_x, 1)*(2 - direction) + size(self%along_y, 1)*(direction - 1)), source=0.0_dp)
+    values = 0.0_dp
     do k = 1, size(self%along_x, 2)
       weight = weight_at(self, mixture, function, k)/self%spacing(direction)**order
       if (direction == 1) then
@@ -182,12 +199,14 @@ contains
     ! Longer lengths: 1/(2 sqrt(pi) t) of a cell's width, and the slope of that.
     weight = self%spacing(direction)/(2.0_dp*sqrt(PI))
     if (slope) then
-      values = values - 0.5_dp*weight*sum_beyond(self, mixture, function, POWERS(function) - 3, 0.0_dp) &
-               *distances(size(values), self%spacing(direction))
+      weight = 0.5_dp*weight*sum_beyond(self, mixture, function, POWERS(function) - 3, 0.0_dp)
+      do k = 1, ubound(values, 1)
+        values(k) = values(k) - weight*(k*self%spacing(direction))
+      end do
     else if (function /= OF_DOWN) then
       values = values + weight*sum_beyond(self, mixture, function, POWERS(function) - 1, 0.0_dp)
     end if
-  end function in_plane
+  end subroutine fill_plane
 
   !> What all longer lengths add to the displacement along z in plane strain, under unit pressure on a cell along
   !> `direction`: so that far away it would be zero at the distance `reach`.

@@ -1,4 +1,5 @@
 /* Section "layers" of fuge_layers.h. */
+#include <limits.h>
 #include "check.h"
 
 enum { LAYERS = 2, N = 4, LDA = 5 };
@@ -163,17 +164,20 @@ typedef struct bad_body {
 } bad_body;
 
 static const double NO_WIDTH[LAYERS] = {0.2, 0.0}, NOT_FINITE[LAYERS] = {NAN, 0.2}, THIN[LAYERS] = {1e-9, 1.0};
+static const double THICK[LAYERS] = {1.0, 1e300};
 static const double NO_YOUNG[LAYERS + 1] = {4.0, -1.0, 2.0}, RIGID_LAYER[LAYERS + 1] = {4.0, HUGE_VAL, 2.0};
 static const double BAD_POISSON[LAYERS + 1] = {0.3, 0.4, 0.6};
 
 static const bad_body BAD_BODIES[] = {
   {{-1, THICKNESS, YOUNG, POISSON, 1, HUGE_VAL}, FUGE_ERR_SIZE, "layers = -1"},
+  {{INT_MAX, THICKNESS, YOUNG, POISSON, 1, HUGE_VAL}, FUGE_ERR_SIZE, "layers = 2147483647 is too large"},
   {{LAYERS, NULL, YOUNG, POISSON, 1, HUGE_VAL}, FUGE_ERR_POINTER, "thickness is NULL"},
   {{LAYERS, THICKNESS, NULL, POISSON, 1, HUGE_VAL}, FUGE_ERR_POINTER, "young is NULL"},
   {{LAYERS, THICKNESS, YOUNG, NULL, 1, HUGE_VAL}, FUGE_ERR_POINTER, "poisson is NULL"},
   {{LAYERS, NO_WIDTH, YOUNG, POISSON, 1, HUGE_VAL}, FUGE_ERR_WIDTH, "thickness 2 = 0."},
   {{LAYERS, NOT_FINITE, YOUNG, POISSON, 1, HUGE_VAL}, FUGE_ERR_NOT_FINITE, "thickness 1 = NaN"},
   {{LAYERS, THIN, YOUNG, POISSON, 1, HUGE_VAL}, FUGE_ERR_WIDTH, "ratio"},
+  {{LAYERS, THICK, YOUNG, POISSON, 1, HUGE_VAL}, FUGE_ERR_OVERFLOW, "thickness 2 = "},
   {{LAYERS, THICKNESS, NO_YOUNG, POISSON, 1, HUGE_VAL}, FUGE_ERR_MODULUS, "young 2 = -1."},
   {{LAYERS, THICKNESS, RIGID_LAYER, POISSON, 1, HUGE_VAL}, FUGE_ERR_MODULUS, "rigid base"},
   {{LAYERS, THICKNESS, YOUNG, BAD_POISSON, 1, HUGE_VAL}, FUGE_ERR_MODULUS, "poisson 3 = "},
@@ -237,6 +241,8 @@ static void test_refusals(void) {
                                              0, values, N, message, sizeof message), FUGE_ERR_ELEMENT);
   CHECK_STATUS(fuge_layered_ring_matrix(LAYERS, THICKNESS, YOUNG, POISSON, 1, 1.0, 2, radius, values, 2, message,
                                         sizeof message), FUGE_ERR_WIDTH);
+  CHECK_SAYS(matrix(RINGS, &LAYERED, INT_MAX, values, INT_MAX, message, sizeof message), FUGE_ERR_SIZE, message,
+             "n = 2147483647 is too large");
   CHECK_SAYS(fuge_layered_ring_matrix(LAYERS, THICKNESS, YOUNG, POISSON, 1, 1.0, 2, NULL, values, 2, message,
                                       sizeof message), FUGE_ERR_POINTER, message, "radius is NULL");
   CHECK_SAYS(fuge_layered_waves(LAYERS, THICKNESS, YOUNG, POISSON, 1, 1.0, 2, bad_q, values, message, sizeof message),
