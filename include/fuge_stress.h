@@ -210,6 +210,69 @@ int fuge_layered_halfspace_displacement_grid(int layers, const double *thickness
                                              int depths, const double *depth, const int *below,
                                              double *displacement, char *message, size_t len);
 
+/* The same at points, below any strips or rectangles.
+ *   x, width .. points, px, pz  in  as in fuge_halfplane_stress and fuge_halfspace_stress
+ *   below                       in  points, or NULL: as above
+ * The datum along z is that of fuge_layered_halfplane_matrix.  Each point takes time for each
+ * cell: on grids the functions above are faster. */
+int fuge_layered_halfplane_stress(int layers, const double *thickness, const double *young,
+                                  const double *poisson, int bonded, int n, const double *x,
+                                  const double *width, const double *force, int element,
+                                  int symmetric, int points, const double *px, const double *pz,
+                                  const int *below, double *stress, char *message, size_t len);
+
+int fuge_layered_halfplane_displacement(int layers, const double *thickness, const double *young,
+                                        const double *poisson, int bonded, int n,
+                                        const double *x, const double *width,
+                                        const double *force, int element, int symmetric,
+                                        int points, const double *px, const double *pz,
+                                        const int *below, double *displacement, char *message,
+                                        size_t len);
+
+int fuge_layered_halfspace_stress(int layers, const double *thickness, const double *young,
+                                  const double *poisson, int bonded, int n, const double *x,
+                                  const double *y, const double *width_x, const double *width_y,
+                                  const double *force, int symmetric_x, int symmetric_y,
+                                  int points, const double *px, const double *py,
+                                  const double *pz, const int *below, double *stress,
+                                  char *message, size_t len);
+
+int fuge_layered_halfspace_displacement(int layers, const double *thickness, const double *young,
+                                        const double *poisson, int bonded, int n,
+                                        const double *x, const double *y, const double *width_x,
+                                        const double *width_y, const double *force,
+                                        int symmetric_x, int symmetric_y, int points,
+                                        const double *px, const double *py, const double *pz,
+                                        const int *below, double *displacement, char *message,
+                                        size_t len);
+
+/* The largest von Mises or Tresca stress in a body of layers. */
+typedef struct fuge_layer_peak {
+  double value;                 /* force per length^2; 0 without forces */
+  double depth;                 /* length */
+  double tensor[6];             /* xx, yy, zz, yz, xz, xy there */
+  int layer;                    /* 0 is the top layer, the number of layers the substrate; layers
+                                   that are bonded to the same material are one with it */
+  int cell;                     /* the cell above */
+} fuge_layer_peak;
+
+/* That below the centres of the cells of a grid: of all layers, both sides of their interfaces,
+ * the surface, and all depths from a quarter of a cell on.
+ *   measure  in   FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA
+ *   peak     out
+ * Where the pressure grows towards the edge of a flat punch it is that of the grid.
+ * FUGE_ERR_OPTION for measure; FUGE_ERR_OVERFLOW if no stress is finite. */
+int fuge_layered_halfplane_peak(int layers, const double *thickness, const double *young,
+                                const double *poisson, int bonded, int n, double spacing,
+                                const double *force, int element, int boundary, int measure,
+                                fuge_layer_peak *peak, char *message, size_t len);
+
+int fuge_layered_halfspace_peak(int layers, const double *thickness, const double *young,
+                                const double *poisson, int bonded, int nx, int ny,
+                                double spacing_x, double spacing_y, const double *force,
+                                int boundary, int measure, fuge_layer_peak *peak,
+                                char *message, size_t len);
+
 /* The largest stresses of the surface or of an interface, and the cells above them. */
 typedef struct fuge_interface_stress {
   double depth;                 /* length */

@@ -36,6 +36,7 @@ module fuge_depth_panels
     integer :: count = 0
   contains
     procedure :: fit
+    procedure :: first_length
     procedure :: mixture_at
   end type depth_panels
 
@@ -174,6 +175,18 @@ contains
     is_upper = .true.
     if (layer <= size(stack%thickness)) is_upper = depth - top < 0.5_dp*stack%thickness(layer)
   end function is_upper_side
+
+  !> The number of the shortest length of all mixtures.
+  pure function first_length(self) result(first)
+    class(depth_panels), intent(in) :: self
+    integer :: first
+    integer :: k
+
+    first = huge(first)
+    do k = 1, self%count
+      first = min(first, self%panel(k)%mixture(1)%first)
+    end do
+  end function first_length
 
   !> The mixture at a `depth` of a `layer`, one of those that were fitted.
   pure subroutine mixture_at(self, layer, depth, mixture)

@@ -1,15 +1,13 @@
 !> What coatings fail by: the largest tension and shear at the surface and at each interface of a body of layers, below
 !> the cells of a grid.
 module fuge_interface_peaks
-  use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
   use fuge_kinds, only: dp
   use fuge_layer_stack, only: layer_stack
   use fuge_layered_body_type, only: fuge_layered_body
-  use fuge_layered_halfplane_depths, only: fuge_layered_halfplane_stress_grid
-  use fuge_layered_halfspace_depths, only: fuge_layered_halfspace_stress_grid
+  use fuge_layered_grid, only: layered_grid
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE
-  use fuge_stress_measures, only: fuge_halfplane_tensor, fuge_principal_stresses
+  use fuge_stress_measures, only: fuge_principal_stresses
   implicit none
   private
 
@@ -50,30 +48,12 @@ contains
     real(dp), intent(in) :: spacing_x, spacing_y, force(:)
     type(fuge_interface_stress), intent(inout) :: peaks(:)
     type(fuge_info), intent(out) :: info
-    type(fuge_interface_stress), allocatable :: found(:)
-    type(layer_stack) :: stack
-    real(dp), allocatable :: principal(:, :), stress(:, :, :)
-    integer :: k, side, sides, stat
+    type(layered_grid) :: grid
 
-    call check_peaks(body, size(peaks), info)
-    if (info%failed()) return
-    allocate (found(size(peaks)), principal(3, size(force)), stress(6, size(force), 2), stat=stat)
-    call require_memory(stat, 'stresses at', size(force), 'cells', info)
-    if (stat /= 0) return
-    stack = body%layers()
-    do k = 1, size(peaks)
-      sides = sides_of(stack, k - 1)
-      found(k)%depth = sum(stack%thickness(:k - 1))
-      call fuge_layered_halfspace_stress_grid(body, nx, ny, spacing_x, spacing_y, force, boundary, &
-                                              spread(found(k)%depth, 1, sides), stress(:, :, :sides), info, &
-                                              BELOW(:sides))
-      do side = 1, sides
-        if (.not. info%failed()) call take_side(stress(:, :, side), side, principal, found(k), info)
-      end do
-      if (info%failed()) return
-      if (sides == 1) call copy_side(found(k))
-    end do
-    peaks = found
+    grid%cells = [nx, ny]
+    grid%spacing = [spacing_x, spacing_y]
+    grid%boundary = boundary
+    call find_interfaces(grid, body, force, peaks, info)
   end subroutine fuge_layered_halfspace_interfaces
 
   !> The largest stresses at the surface and at each interface below a line of cells, in plane strain.
@@ -87,35 +67,48 @@ contains
     integer, intent(in) :: element, boundary
     type(fuge_interface_stress), intent(inout) :: peaks(:)
     type(fuge_info), intent(out) :: info
+    type(layered_grid) :: grid
+
+    grid%is_line = .true.
+    grid%cells = [size(force), 1]
+    grid%spacing = spacing
+    grid%element = element
+    grid%boundary = boundary
+    call find_interfaces(grid, body, force, peaks, info)
+  end subroutine fuge_layered_halfplane_interfaces
+
+  subroutine find_interfaces(grid, body, force, peaks, info)
+    type(layered_grid), intent(inout) :: grid
+    type(fuge_layered_body), intent(in) :: body
+    real(dp), intent(in) :: force(:)
+    type(fuge_interface_stress), intent(inout) :: peaks(:)
+    type(fuge_info), intent(inout) :: info
     type(fuge_interface_stress), allocatable :: found(:)
     type(layer_stack) :: stack
-    real(dp), allocatable :: principal(:, :), stress(:, :, :), tensor(:, :)
+    real(dp), allocatable :: principal(:, :), tensor(:, :, :)
     integer :: k, side, sides, stat
 
     call check_peaks(body, size(peaks), info)
     if (info%failed()) return
-    allocate (found(size(peaks)), principal(3, size(force)), stress(3, size(force), 2), tensor(6, size(force)), &
+    grid%body = body
+    allocate (grid%force(size(force)), found(size(peaks)), principal(3, size(force)), tensor(6, size(force), 2), &
               stat=stat)
     call require_memory(stat, 'stresses at', size(force), 'cells', info)
     if (stat /= 0) return
+    grid%force = force
     stack = body%layers()
     do k = 1, size(peaks)
       sides = sides_of(stack, k - 1)
       found(k)%depth = sum(stack%thickness(:k - 1))
-      call fuge_layered_halfplane_stress_grid(body, spacing, force, element, boundary, &
-                                              spread(found(k)%depth, 1, sides), stress(:, :, :sides), info, &
-                                              BELOW(:sides))
+      call grid%tensors(spread(found(k)%depth, 1, sides), BELOW(:sides), tensor(:, :, :sides), info)
       do side = 1, sides
-        ! Layer k - 1 is above interface k - 1.
-        if (.not. info%failed()) call fuge_halfplane_tensor(stress(:, :, side), FUGE_PLANE_STRAIN, &
-                                                            stack%poisson(max(k + side - 2, 1)), tensor, info)
-        if (.not. info%failed()) call take_side(tensor, side, principal, found(k), info)
+        if (.not. info%failed()) call take_side(tensor(:, :, side), side, principal, found(k), info)
       end do
       if (info%failed()) return
       if (sides == 1) call copy_side(found(k))
     end do
     peaks = found
-  end subroutine fuge_layered_halfplane_interfaces
+  end subroutine find_interfaces
 
   !> Errors: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE.
   subroutine check_peaks(body, given, info)

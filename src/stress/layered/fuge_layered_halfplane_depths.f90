@@ -1,8 +1,9 @@
 !> Stresses and displacements in a body of layers, in plane strain, at depths below the centres of a grid of cells, by
 !> FFT; as fuge_layered_halfspace_depths.
 module fuge_layered_halfplane_depths
-  use fuge_depth_mixture, only: depth_mixture, fit_at_depths, uniform_stress, yield_below, OF_ALONG, OF_DOWN, OF_NN, &
+  use fuge_depth_mixture, only: depth_mixture, OF_ALONG, OF_DOWN, OF_NN, &
     OF_SLOPE, OF_ZZ
+  use fuge_depth_panels, only: depth_panels
   use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
   use fuge_grid_waves, only: grid_waves
   use fuge_halfplane_depths, only: fuge_halfplane_displacement_grid, fuge_halfplane_stress_grid
@@ -11,8 +12,7 @@ module fuge_layered_halfplane_depths
   use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_halfspace_depths, only: convolve_tables
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: cut_body, find_depths_in_top, number_in_top
-  use fuge_layer_interior, only: layer_cut
+  use fuge_layer_checks, only: find_layers, find_uniform, points_in_top
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_memory, only: check_memory
   use fuge_mixture_sums, only: bytes_of_sums, mixture_sums, PLACES_OF, WAVES_OF
@@ -33,12 +33,15 @@ module fuge_layered_halfplane_depths
     logical :: periodic = .false.
     type(grid_waves) :: waves
     type(mixture_sums) :: sums
-    type(layer_cut), allocatable :: cut(:)
-    type(depth_mixture), allocatable :: mixture(:)
+    type(depth_panels) :: panels
+    type(depth_mixture) :: mixture
+    !> The layer at each depth, and which depths are in the top layer.
+    integer, allocatable :: layer(:), in_top(:)
     !> Factors of waves, or influence at places.
     real(dp), allocatable :: factor(:, :)
-    !> The depths in the top layer, and what a half-plane gives there, (components, n, depths).
-    real(dp), allocatable :: depth_in_top(:), plain(:, :, :)
+    !> What a half-plane gives in the top layer, (components, n, depths), and equal pressure on a
+    !> periodic surface, (3, depths).
+    real(dp), allocatable :: plain(:, :, :), uniform(:, :)
   end type grid_work
 
 contains
@@ -65,27 +68,28 @@ contains
     integer :: k
 
     call check_halfplane_grid(spacing, force, element, boundary, depth, shape(stress), 'stress', 3, info)
-    call cut_body(body, depth, work%cut, info, below)
+    call find_layers(body, depth, 'depth', work%layer, info, below)
     if (info%failed()) return
     if (.not. body%has_layers()) then
       call fuge_halfplane_stress_grid(spacing, force, element, boundary, depth, stress, info)
       return
     end if
-    call start(work, spacing, force, element, boundary, depth, 3, info)
+    call start(work, body, spacing, force, element, boundary, depth, 3, info)
     if (.not. info%failed()) call fuge_halfplane_stress_grid(spacing, force, element, boundary, &
-                                                             work%depth_in_top, work%plain, info)
+                                                             depth(work%in_top), work%plain, info)
     do k = 1, size(depth)
       if (info%failed()) exit
-      call find_field(work, work%mixture(k), [1, 2, 3], stress(:, :, k))
+      call work%panels%mixture_at(work%layer(k), depth(k), work%mixture)
+      call find_field(work, work%mixture, [1, 2, 3], stress(:, :, k))
       stress(:, :, k) = stress(:, :, k)/spacing
-      if (work%cut(k)%layer == 1) then
-        associate (plain => work%plain(:, :, number_in_top(work%cut, k)))
+      if (work%layer(k) == 1) then
+        associate (plain => work%plain(:, :, count(work%layer(:k) == 1)))
           stress(:, :, k) = stress(:, :, k) + plain
           ! The pressure, without a rounding.
           if (.not. depth(k) > 0.0_dp) stress(2:3, :, k) = plain(2:3, :)
         end associate
       end if
-      if (work%periodic) call add_mean(work%cut(k), sum(force)/(spacing*size(force)), stress(:, :, k))
+      if (work%periodic) call add_mean(sum(force)/(spacing*size(force))*work%uniform(:2, k), stress(:, :, k))
     end do
     call work%waves%free()
   end subroutine fuge_layered_halfplane_stress_grid
@@ -113,7 +117,7 @@ contains
     integer :: k
 
     call check_halfplane_grid(spacing, force, element, boundary, depth, shape(displacement), 'displacement', 2, info)
-    call cut_body(body, depth, work%cut, info, below)
+    call find_layers(body, depth, 'depth', work%layer, info, below)
     if (info%failed()) return
     call check_grid_strain(force, spacing, body%young(), info)
     if (info%failed()) return
@@ -122,48 +126,50 @@ contains
                                             FUGE_PLANE_STRAIN, depth, displacement, info)
       return
     end if
-    call start(work, spacing, force, element, boundary, depth, 2, info)
+    call start(work, body, spacing, force, element, boundary, depth, 2, info)
     ! 1/(2 G) of the top layer.
     compliance = (1.0_dp + body%poisson())/body%young()
     if (.not. info%failed()) call fuge_halfplane_displacement_grid(spacing, force, element, boundary, body%young(), &
                                                                    body%poisson(), FUGE_PLANE_STRAIN, &
-                                                                   work%depth_in_top, work%plain, info)
+                                                                   depth(work%in_top), work%plain, info)
     do k = 1, size(depth)
       if (info%failed()) exit
-      call find_field(work, work%mixture(k), [5, 4], displacement(2:1:-1, :, k))
+      call work%panels%mixture_at(work%layer(k), depth(k), work%mixture)
+      call find_field(work, work%mixture, [5, 4], displacement(2:1:-1, :, k))
       displacement(:, :, k) = displacement(:, :, k)*(compliance/spacing)
-      if (work%cut(k)%layer == 1) displacement(:, :, k) = displacement(:, :, k) &
-                                                          + work%plain(:, :, number_in_top(work%cut, k))
+      if (work%layer(k) == 1) displacement(:, :, k) = displacement(:, :, k) &
+                                                      + work%plain(:, :, count(work%layer(:k) == 1))
       if (work%periodic) displacement(2, :, k) = displacement(2, :, k) &
-        + sum(force)/(spacing*size(force))*compliance*yield_below(work%cut(k))
+        + sum(force)/(spacing*size(force))*compliance*work%uniform(3, k)
     end do
     call work%waves%free()
   end subroutine fuge_layered_halfplane_displacement_grid
 
-  !> Fit the mixtures, compute the sums and transform the forces. FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED.
-  subroutine start(work, spacing, force, element, boundary, depth, components, info)
+  !> Fit the mixtures, compute the sums and transform the forces. FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED. Nine arguments:
+  !> those of the public procedures.
+  subroutine start(work, body, spacing, force, element, boundary, depth, components, info)
     type(grid_work), intent(inout) :: work
+    type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: spacing, force(:), depth(:)
     integer, intent(in) :: element, boundary, components
     type(fuge_info), intent(inout) :: info
-    integer :: first, k, kind(2), n, stat
+    integer :: first, kind(2), n, stat
 
     if (element == FUGE_HAT) call report(info, FUGE_ERR_ELEMENT, 'element FUGE_HAT: in layers the pressure is ' &
                                          //'constant on each cell: use FUGE_MEAN, whose influence is the same')
-    call find_depths_in_top(work%cut, depth, work%depth_in_top, info)
+    call points_in_top(work%layer, work%in_top, info)
     if (info%failed()) return
     work%periodic = boundary == FUGE_PERIODIC
     n = size(force)
-    allocate (work%mixture(size(depth)), work%plain(components, n, size(work%depth_in_top)), &
+    allocate (work%plain(components, n, size(work%in_top)), &
               work%factor(0:merge(n/2, n - 1, work%periodic), 0:0), stat=stat)
     call require_memory(stat, 'results at', n, 'cells', info)
     if (size(depth) < 1) return
-    do k = 1, size(depth)
-      call fit_at_depths(work%cut(k:k), depth(k:k), work%mixture(k:k), info)
-    end do
+    call work%panels%fit(body%layers(), work%layer, depth, info)
+    if (work%periodic) call find_uniform(body, depth, work%layer, .true., work%uniform, info)
     if (info%failed()) return
     kind = [merge(WAVES_OF, PLACES_OF, work%periodic), WAVES_OF]
-    first = minval(work%mixture%first)
+    first = work%panels%first_length()
     call check_memory(bytes_of_sums([n, 1], [spacing, spacing], kind, first), 'a line of '//text(n)//' cells', info)
     if (info%failed()) return
     call work%sums%prepare([n, 1], [spacing, spacing], kind, first, stat)
@@ -199,15 +205,11 @@ contains
                                                                       [2, size(component)]), field)
   end subroutine find_field
 
-  !> What the mean pressure adds on a periodic surface; zz of a half-plane is there already.
-  subroutine add_mean(cut, pressure, stress)
-    type(layer_cut), intent(in) :: cut
-    real(dp), intent(in) :: pressure
+  !> Add the stresses `uniform` (2), xx and zz, everywhere.
+  pure subroutine add_mean(uniform, stress)
+    real(dp), intent(in) :: uniform(2)
     real(dp), intent(inout) :: stress(:, :)
-    real(dp) :: uniform(2)
 
-    uniform = pressure*uniform_stress(cut, .true.)
-    if (cut%layer == 1) uniform(2) = 0.0_dp
     stress(1, :) = stress(1, :) + uniform(1)
     stress(2, :) = stress(2, :) + uniform(2)
   end subroutine add_mean

@@ -8,7 +8,7 @@ module fuge_layered_halfplane_interior
   use fuge_halfplane_interior, only: check_points, displacement_factors, fuge_halfplane_displacement, &
     fuge_halfplane_stress
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: find_layers, points_in_top
+  use fuge_layer_checks, only: find_layers, start_points
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_point_gaussians, only: point_gaussians, point_loads, PLAIN, SLOPE_X
   use fuge_pressed_line, only: check_line, pressed_line
@@ -43,7 +43,7 @@ contains
 
     call check(body, x, width, force, element, px, pz, layer, info, below, symmetric)
     call check_result(shape(stress), 'stress', 3, size(pz), info)
-    call points_in_top(layer, 3, which, plain, found, info)
+    call start_points(layer, 3, which, plain, found, info)
     if (.not. info%failed()) call fuge_halfplane_stress(x, width, force, element, px(which), pz(which), plain, info, &
                                                         symmetric)
     call add_layers(body, x, width, force, layer, px, pz, found, info, symmetric)
@@ -79,7 +79,7 @@ contains
     call check(body, x, width, force, element, px, pz, layer, info, below, symmetric)
     call check_result(shape(displacement), 'displacement', 2, size(pz), info)
     if (.not. info%failed()) call displacement_factors(body%young(), body%poisson(), FUGE_PLANE_STRAIN, factor, info)
-    call points_in_top(layer, 2, which, plain, found, info)
+    call start_points(layer, 2, which, plain, found, info)
     if (.not. info%failed()) call fuge_halfplane_displacement(x, width, force, element, body%young(), body%poisson(), &
                                                               FUGE_PLANE_STRAIN, px(which), pz(which), plain, info, &
                                                               symmetric)
@@ -116,7 +116,7 @@ contains
     call check_points(px, pz, info)
     call line%set(x, width, force, element, folded, info)
     call line%check_distances(px, pz, info)
-    call find_layers(body, pz, layer, info, below)
+    call find_layers(body, pz, 'pz', layer, info, below)
   end subroutine check
 
   !> Add the stresses (3, points), or twice the shear modulus of the top layer times the displacements (2, points), of

@@ -4,16 +4,16 @@
 !> change; deeper all of it is a mixture of Gaussians (fuge_depth_mixture), which make products of sums along both
 !> directions, of places or of waves.
 module fuge_layered_halfspace_depths
-  use fuge_depth_mixture, only: depth_mixture, fit_at_depths, uniform_stress, yield_below, OF_ALONG, OF_DIFFERENCE, &
+  use fuge_depth_mixture, only: depth_mixture, OF_ALONG, OF_DIFFERENCE, &
     OF_DOWN, OF_NN, OF_SLOPE, OF_TT, OF_ZZ
+  use fuge_depth_panels, only: depth_panels
   use fuge_grid_waves, only: grid_waves
   use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_depths, only: check_stress_grid, convolve_tables, fuge_halfspace_displacement_grid, &
     fuge_halfspace_stress_grid, DISPLACEMENT_KINDS, STRESS_KINDS
   use fuge_halfspace_grid, only: halfspace_grid, periodic, FUGE_PERIODIC_X
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: cut_body, find_depths_in_top, number_in_top
-  use fuge_layer_interior, only: layer_cut
+  use fuge_layer_checks, only: find_layers, find_uniform, points_in_top
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_memory, only: check_memory
   use fuge_mixture_sums, only: bytes_of_sums, mixture_sums, CIRCLE_OF, PLACES_OF, WAVES_OF
@@ -33,13 +33,16 @@ module fuge_layered_halfspace_depths
     type(halfspace_grid) :: grid
     type(grid_waves) :: waves
     type(mixture_sums) :: sums
-    type(layer_cut), allocatable :: cut(:)
-    type(depth_mixture), allocatable :: mixture(:)
+    type(depth_panels) :: panels
+    type(depth_mixture) :: mixture
+    !> The layer at each depth, and which depths are in the top layer.
+    integer, allocatable :: layer(:), in_top(:)
     !> Factors of waves or influence at places; the mean along rows of a surface that is periodic along them, at the
     !> cells across, otherwise 0.
     real(dp), allocatable :: factor(:, :), mean(:)
-    !> The depths in the top layer, and what a half-space gives there, (components, nx*ny, depths).
-    real(dp), allocatable :: depth_in_top(:), plain(:, :, :)
+    !> What a half-space gives in the top layer, (components, nx*ny, depths), and equal pressure on a
+    !> periodic surface, (3, depths).
+    real(dp), allocatable :: plain(:, :, :), uniform(:, :)
   end type grid_work
 
 contains
@@ -70,27 +73,28 @@ contains
 
     call describe(nx, ny, spacing_x, spacing_y, boundary, work)
     call check_stress_grid(work%grid, force, depth, shape(stress), 'stress', 6, info)
-    call cut_body(body, depth, work%cut, info, below)
+    call find_layers(body, depth, 'depth', work%layer, info, below)
     if (.not. info%failed() .and. .not. body%has_layers()) then
       call fuge_halfspace_stress_grid(nx, ny, spacing_x, spacing_y, force, boundary, body%poisson(), depth, stress, &
                                       info)
       return
     end if
-    call start(work, force, depth, 6, info)
+    call start(work, body, force, depth, 6, info)
     if (.not. info%failed()) call fuge_halfspace_stress_grid(nx, ny, spacing_x, spacing_y, force, boundary, &
-                                                             body%poisson(), work%depth_in_top, work%plain, info)
+                                                             body%poisson(), depth(work%in_top), work%plain, info)
     do k = 1, size(depth)
       if (info%failed()) exit
-      call find_field(work, work%mixture(k), 0, stress(:, :, k))
+      call work%panels%mixture_at(work%layer(k), depth(k), work%mixture)
+      call find_field(work, work%mixture, 0, stress(:, :, k))
       stress(:, :, k) = stress(:, :, k)/(spacing_x*spacing_y)
-      if (work%cut(k)%layer == 1) then
-        associate (plain => work%plain(:, :, number_in_top(work%cut, k)))
+      if (work%layer(k) == 1) then
+        associate (plain => work%plain(:, :, count(work%layer(:k) == 1)))
           stress(:, :, k) = stress(:, :, k) + plain
           ! The pressure, without a rounding.
           if (.not. depth(k) > 0.0_dp) stress(3:5, :, k) = plain(3:5, :)
         end associate
       end if
-      if (boundary == FUGE_PERIODIC) call add_mean(work%cut(k), sum(force)/(spacing_x*spacing_y*size(force)), &
+      if (boundary == FUGE_PERIODIC) call add_mean(sum(force)/(spacing_x*spacing_y*size(force))*work%uniform(:2, k), &
                                                    stress(:, :, k))
     end do
     call work%waves%free()
@@ -121,7 +125,7 @@ contains
 
     call describe(nx, ny, spacing_x, spacing_y, boundary, work)
     call check_stress_grid(work%grid, force, depth, shape(displacement), 'displacement', 3, info)
-    call cut_body(body, depth, work%cut, info, below)
+    call find_layers(body, depth, 'depth', work%layer, info, below)
     if (info%failed()) return
     call check_grid_strain(force, product(work%grid%spacing), body%young(), info)
     if (.not. info%failed() .and. .not. body%has_layers()) then
@@ -129,20 +133,21 @@ contains
                                             body%poisson(), depth, displacement, info)
       return
     end if
-    call start(work, force, depth, 3, info)
+    call start(work, body, force, depth, 3, info)
     ! 1/(2 G) of the top layer.
     compliance = (1.0_dp + body%poisson())/body%young()
     if (.not. info%failed()) call fuge_halfspace_displacement_grid(nx, ny, spacing_x, spacing_y, force, boundary, &
-                                                                   body%young(), body%poisson(), work%depth_in_top, &
+                                                                   body%young(), body%poisson(), depth(work%in_top), &
                                                                    work%plain, info)
     do k = 1, size(depth)
       if (info%failed()) exit
-      call find_field(work, work%mixture(k), 6, displacement(:, :, k))
+      call work%panels%mixture_at(work%layer(k), depth(k), work%mixture)
+      call find_field(work, work%mixture, 6, displacement(:, :, k))
       displacement(:, :, k) = displacement(:, :, k)*(compliance/(spacing_x*spacing_y))
-      if (work%cut(k)%layer == 1) displacement(:, :, k) = displacement(:, :, k) &
-                                                          + work%plain(:, :, number_in_top(work%cut, k))
+      if (work%layer(k) == 1) displacement(:, :, k) = displacement(:, :, k) &
+                                                      + work%plain(:, :, count(work%layer(:k) == 1))
       if (boundary == FUGE_PERIODIC) displacement(3, :, k) = displacement(3, :, k) &
-        + sum(force)/(spacing_x*spacing_y*size(force))*compliance*yield_below(work%cut(k))
+        + sum(force)/(spacing_x*spacing_y*size(force))*compliance*work%uniform(3, k)
     end do
     call work%waves%free()
   end subroutine fuge_layered_halfspace_displacement_grid
@@ -159,26 +164,26 @@ contains
   end subroutine describe
 
   !> Fit the mixtures, compute the sums and transform the forces. FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED.
-  subroutine start(work, force, depth, components, info)
+  subroutine start(work, body, force, depth, components, info)
     type(grid_work), intent(inout) :: work
+    type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: force(:), depth(:)
     integer, intent(in) :: components
     type(fuge_info), intent(inout) :: info
-    integer :: extent(2), first, k, kind(2), stat
+    integer :: extent(2), first, kind(2), stat
 
-    call find_depths_in_top(work%cut, depth, work%depth_in_top, info)
+    call points_in_top(work%layer, work%in_top, info)
     if (info%failed()) return
-    allocate (work%mixture(size(depth)), work%plain(components, size(force), size(work%depth_in_top)), stat=stat)
+    allocate (work%plain(components, size(force), size(work%in_top)), stat=stat)
     call require_memory(stat, 'results at', size(force), 'cells', info)
     if (size(depth) < 1) return
-    do k = 1, size(depth)
-      call fit_at_depths(work%cut(k:k), depth(k:k), work%mixture(k:k), info)
-    end do
+    call work%panels%fit(body%layers(), work%layer, depth, info)
+    if (work%grid%boundary == FUGE_PERIODIC) call find_uniform(body, depth, work%layer, .false., work%uniform, info)
     if (info%failed()) return
     kind = PLACES_OF
     where (periodic(work%grid)) kind = merge(WAVES_OF, CIRCLE_OF, work%grid%boundary == FUGE_PERIODIC)
     extent = merge(work%grid%cells - 1, work%grid%cells/2, kind == PLACES_OF)
-    first = minval(work%mixture%first)
+    first = work%panels%first_length()
     call check_memory(bytes_of_sums(work%grid%cells, work%grid%spacing, kind, first) &
                       + 8.0_dp*product(real(extent, dp) + 1.0_dp), 'a grid of ' &
                       //text(work%grid%cells(1))//' by '//text(work%grid%cells(2))//' cells', info)
@@ -284,15 +289,11 @@ contains
     end do
   end subroutine copy_table
 
-  !> What the mean pressure adds on a periodic surface; zz of a half-space is there already.
-  subroutine add_mean(cut, pressure, stress)
-    type(layer_cut), intent(in) :: cut
-    real(dp), intent(in) :: pressure
+  !> Add the stresses `uniform` (2), xx = yy and zz, everywhere.
+  pure subroutine add_mean(uniform, stress)
+    real(dp), intent(in) :: uniform(2)
     real(dp), intent(inout) :: stress(:, :)
-    real(dp) :: uniform(2)
 
-    uniform = pressure*uniform_stress(cut, .false.)
-    if (cut%layer == 1) uniform(2) = 0.0_dp
     stress(1, :) = stress(1, :) + uniform(1)
     stress(2, :) = stress(2, :) + uniform(1)
     stress(3, :) = stress(3, :) + uniform(2)

@@ -8,7 +8,7 @@ module fuge_layered_halfspace_interior
   use fuge_depth_panels, only: depth_panels
   use fuge_halfspace_interior, only: check_points, fuge_halfspace_displacement, fuge_halfspace_stress, given_symmetry
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: find_layers, points_in_top
+  use fuge_layer_checks, only: find_layers, start_points
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_point_gaussians, only: point_gaussians, point_loads, CURVE_X, CURVE_Y, PLAIN, SLOPE_X, SLOPE_Y, TWIST
   use fuge_pressed_area, only: check_area, pressed_area
@@ -46,8 +46,8 @@ contains
     call check_area(x, y, width_x, width_y, force, given_symmetry(symmetric_x, symmetric_y), info)
     call check_points(px, py, pz, info)
     call check_result(shape(stress), 'stress', 6, size(pz), info)
-    call find_layers(body, pz, layer, info, below)
-    call points_in_top(layer, 6, which, plain, found, info)
+    call find_layers(body, pz, 'pz', layer, info, below)
+    call start_points(layer, 6, which, plain, found, info)
     if (.not. info%failed()) call fuge_halfspace_stress(x, y, width_x, width_y, force, body%poisson(), px(which), &
                                                         py(which), pz(which), plain, info, symmetric_x, symmetric_y)
     call add_layers(body, x, y, width_x, width_y, force, given_symmetry(symmetric_x, symmetric_y), layer, px, py, pz, &
@@ -82,10 +82,10 @@ contains
     call check_area(x, y, width_x, width_y, force, given_symmetry(symmetric_x, symmetric_y), info)
     call check_points(px, py, pz, info)
     call check_result(shape(displacement), 'displacement', 3, size(pz), info)
-    call find_layers(body, pz, layer, info, below)
+    call find_layers(body, pz, 'pz', layer, info, below)
     if (info%failed()) return
     call check_displacement_range(force, min(minval(width_x), minval(width_y)), body%young(), info)
-    call points_in_top(layer, 3, which, plain, found, info)
+    call start_points(layer, 3, which, plain, found, info)
     if (.not. info%failed()) call fuge_halfspace_displacement(x, y, width_x, width_y, force, body%young(), &
                                                               body%poisson(), px(which), py(which), pz(which), plain, &
                                                               info, symmetric_x, symmetric_y)

@@ -63,6 +63,62 @@ static void test_interface(void) {
   CHECK(peaks[1].cell_below >= 0 && peaks[1].cell_below < CELLS);
 }
 
+/* Points are those of a grid; symmetric models; the largest stress is not below theirs. */
+static void test_points(void) {
+  const double depth[] = {0.3, 0.3};
+  const int below[] = {0, 1};
+  double force[CELLS], x[CELLS], y[CELLS], width[CELLS], zero[CELLS], z[CELLS];
+  double grid[6 * CELLS * 2], stress[6 * CELLS], line[3 * N], move[3 * CELLS], grid_move[3 * CELLS * 2];
+  int lower[CELLS];
+  fuge_layer_peak peak;
+  press(force);
+  for (int k = 0; k < CELLS; k++) {
+    x[k] = 0.2 * (k % N);
+    y[k] = 0.2 * (k / N);
+    width[k] = 0.2;
+    zero[k] = 0.0;
+    z[k] = 0.3;
+    lower[k] = 1;
+  }
+  CHECK_DONE(fuge_layered_halfspace_stress_grid(1, thickness, young, poisson, 1, N, N, 0.2, 0.2, force, FUGE_FREE, 2, depth,
+                                                below, grid, NULL, 0));
+  CHECK_DONE(fuge_layered_halfspace_stress(1, thickness, young, poisson, 1, CELLS, x, y, width, width, force, 0, 0, CELLS, x, y,
+                                           z, lower, stress, NULL, 0));
+  for (int k = 0; k < 6 * CELLS; k++) CHECK_NEAR(stress[k], grid[6 * CELLS + k], 1e-10);
+  CHECK_DONE(fuge_layered_halfspace_displacement_grid(1, thickness, young, poisson, 1, N, N, 0.2, 0.2, force, FUGE_FREE, 2,
+                                                      depth, NULL, grid_move, NULL, 0));
+  CHECK_DONE(fuge_layered_halfspace_displacement(1, thickness, young, poisson, 1, CELLS, x, y, width, width, force, 0, 0, CELLS,
+                                                 x, y, z, NULL, move, NULL, 0));
+  for (int k = 0; k < 3 * CELLS; k++) CHECK_NEAR(move[k], grid_move[k], 1e-10);
+  CHECK_DONE(fuge_layered_halfplane_stress_grid(1, thickness, young, poisson, 1, N, 0.2, force + N * (N / 2), FUGE_MEAN,
+                                                FUGE_FREE, 2, depth, below, grid, NULL, 0));
+  CHECK_DONE(fuge_layered_halfplane_stress(1, thickness, young, poisson, 1, N, x, width, force + N * (N / 2), FUGE_MEAN, 0, N, x,
+                                           z, lower, line, NULL, 0));
+  for (int k = 0; k < 3 * N; k++) CHECK_NEAR(line[k], grid[3 * N + k], 1e-10);
+  CHECK_DONE(fuge_layered_halfplane_displacement_grid(1, thickness, young, poisson, 1, N, 0.2, force + N * (N / 2), FUGE_MEAN,
+                                                      FUGE_FREE, 2, depth, below, grid_move, NULL, 0));
+  CHECK_DONE(fuge_layered_halfplane_displacement(1, thickness, young, poisson, 1, N, x, width, force + N * (N / 2), FUGE_MEAN, 0,
+                                                 N, x, z, NULL, move, NULL, 0));
+  for (int k = 0; k < 2 * N; k++) CHECK_NEAR(move[k], grid_move[k], 1e-10);
+  /* One cell at x = 0 is its own image. */
+  CHECK_DONE(fuge_layered_halfplane_stress(1, thickness, young, poisson, 1, 1, x, width, force + N * (N / 2) + 4, FUGE_MEAN, 1, 1,
+                                           x, zero, NULL, line, NULL, 0));
+  CHECK_NEAR(line[1], -force[N * (N / 2) + 4] / 0.2, 1e-12);
+  CHECK_DONE(fuge_layered_halfspace_peak(1, thickness, young, poisson, 1, N, N, 0.2, 0.2, force, FUGE_FREE,
+                                         FUGE_MEASURE_VON_MISES, &peak, NULL, 0));
+  CHECK(peak.value > 0.0 && peak.layer >= 0 && peak.layer <= 1 && peak.cell >= 0 && peak.cell < CELLS);
+  CHECK_DONE(fuge_layered_halfplane_peak(1, thickness, young, poisson, 1, N, 0.2, force + N * (N / 2), FUGE_MEAN, FUGE_FREE,
+                                         FUGE_MEASURE_TRESCA, &peak, NULL, 0));
+  CHECK(peak.value > 0.0 && peak.cell >= 0 && peak.cell < N);
+  CHECK_INT(fuge_layered_halfspace_peak(1, thickness, young, poisson, 1, N, N, 0.2, 0.2, force, FUGE_FREE, 99, &peak, NULL, 0),
+            FUGE_ERR_OPTION);
+  CHECK_INT(fuge_layered_halfplane_peak(1, thickness, young, poisson, 1, N, 0.2, force, FUGE_MEAN, FUGE_FREE,
+                                        FUGE_MEASURE_TRESCA, NULL, NULL, 0), FUGE_ERR_POINTER);
+  z[0] = -1.0;
+  CHECK_INT(fuge_layered_halfspace_stress(1, thickness, young, poisson, 1, CELLS, x, y, width, width, force, 0, 0, CELLS, x, y,
+                                          z, NULL, stress, NULL, 0), FUGE_ERR_GRID);
+}
+
 static void test_errors(void) {
   const double depth[] = {0.5}, rigid[] = {1.0, INFINITY};
   double force[CELLS], stress[6 * CELLS] = {7.0};
@@ -92,6 +148,7 @@ static void test_errors(void) {
 int main(void) {
   test_half_space();
   test_interface();
+  test_points();
   test_errors();
   return check_summary();
 }
