@@ -62,9 +62,12 @@ Stresses and displacements in the bodies
     halfplane_displacement, halfspace_displacement, ring_interior_displacement
     halfplane_stress_grid, halfspace_stress_grid                        below the cells of a grid, at depths, by FFT
     halfplane_displacement_grid, halfspace_displacement_grid
-    layered_halfplane_stress_grid, layered_halfspace_stress_grid        in layers
+    layered_halfplane_stress, layered_halfspace_stress                  in layers
+    layered_halfplane_displacement, layered_halfspace_displacement
+    layered_halfplane_stress_grid, layered_halfspace_stress_grid        below grids
     layered_halfplane_displacement_grid, layered_halfspace_displacement_grid
     layered_halfplane_interfaces, layered_halfspace_interfaces          what coatings fail by: InterfaceStress
+    layered_halfplane_peak, layered_halfspace_peak                      the largest stress: LayerPeak
     halfplane_tensor, round_tensor                                      all components
     von_mises, tresca, mean_stress, principal_stresses                  of tensors
     halfplane_peak, halfspace_peak, ring_peak                           the largest stress: StressPeak
@@ -147,13 +150,22 @@ from fuge.halfspace import (
     ring_displacement as ring_displacement,
     ring_matrix as ring_matrix,
 )
+from fuge.layer_points import (
+    layered_halfplane_displacement as layered_halfplane_displacement,
+    layered_halfplane_stress as layered_halfplane_stress,
+    layered_halfspace_displacement as layered_halfspace_displacement,
+    layered_halfspace_stress as layered_halfspace_stress,
+)
 from fuge.layer_stress import (
     InterfaceStress as InterfaceStress,
+    LayerPeak as LayerPeak,
     layered_halfplane_displacement_grid as layered_halfplane_displacement_grid,
     layered_halfplane_interfaces as layered_halfplane_interfaces,
+    layered_halfplane_peak as layered_halfplane_peak,
     layered_halfplane_stress_grid as layered_halfplane_stress_grid,
     layered_halfspace_displacement_grid as layered_halfspace_displacement_grid,
     layered_halfspace_interfaces as layered_halfspace_interfaces,
+    layered_halfspace_peak as layered_halfspace_peak,
     layered_halfspace_stress_grid as layered_halfspace_stress_grid,
 )
 from fuge.layers import (

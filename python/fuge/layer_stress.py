@@ -7,6 +7,7 @@ mean at each depth, on a rigid base from the base, as those of the operator.
 
 from __future__ import annotations
 
+import ctypes
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,11 +16,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import call
-from fuge._library import struct_array
+from fuge._library import struct, struct_array
 from fuge.halfplane import Element
 from fuge.layers import Layers
 from fuge.operators import AreaBoundary, Boundary
 from fuge.stress_grid import area_arguments, line_arguments
+from fuge.stress_peak import MEASURES, Measure
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,31 @@ class InterfaceStress:
     cell_below: tuple[int, ...]
     cell_of_shear: tuple[int, ...]
     cell_of_opening: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class LayerPeak:
+    """The largest von Mises or Tresca stress in a body of layers.
+
+    Attributes
+    ----------
+    value : float
+        Force per length^2; 0 without forces.
+    depth : float
+        Length.
+    layer : int
+        0 is the top layer, the last number the substrate; layers that are bonded to the same material are one with it.
+    cell : tuple of int
+        The cell above it: (i,) of a line, (row, column) of an area.
+    tensor : ndarray, shape (6,)
+        xx, yy, zz, yz, xz, xy there.
+    """
+
+    value: float
+    depth: float
+    layer: int
+    cell: tuple[int, ...]
+    tensor: NDArray[np.float64]
 
 
 def _at_depths(
@@ -166,14 +193,15 @@ def layered_halfspace_displacement_grid(
     return _at_depths("fuge_layered_halfspace_displacement_grid", layers, arguments, depth, below, grid, 3)
 
 
+def _place(cell: int, grid: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple(int(i) for i in np.unravel_index(cell, grid))
+
+
 def _interfaces(name: str, layers: Layers, arguments: list[Any], grid: tuple[int, ...]) -> list[InterfaceStress]:
     body = layers.arguments()[:-1]
     count = np.zeros(1, dtype=np.intc)
     peaks = struct_array("fuge_interface_stress", body[0] + 1)
     call(name, *body, *arguments, count, peaks, shapes={"force": grid})
-
-    def place(cell: int) -> tuple[int, ...]:
-        return tuple(int(i) for i in np.unravel_index(cell, grid))
 
     return [
         InterfaceStress(
@@ -182,10 +210,10 @@ def _interfaces(name: str, layers: Layers, arguments: list[Any], grid: tuple[int
             peak.tension_below,
             peak.shear,
             peak.opening,
-            place(peak.cell_above),
-            place(peak.cell_below),
-            place(peak.cell_of_shear),
-            place(peak.cell_of_opening),
+            _place(peak.cell_above, grid),
+            _place(peak.cell_below, grid),
+            _place(peak.cell_of_shear, grid),
+            _place(peak.cell_of_opening, grid),
         )
         for peak in peaks[: int(count[0]) + 1]
     ]
@@ -214,3 +242,46 @@ def layered_halfspace_interfaces(
     """
     grid, arguments = area_arguments(spacing_x, spacing_y, force, boundary)
     return _interfaces("fuge_layered_halfspace_interfaces", layers, arguments, grid)
+
+
+def _peak(name: str, layers: Layers, arguments: list[Any], measure: Measure, grid: tuple[int, ...]) -> LayerPeak:
+    peak = struct("fuge_layer_peak")
+    body = layers.arguments()[:-1]
+    call(name, *body, *arguments, MEASURES.number(measure), ctypes.byref(peak), shapes={"force": grid})
+    return LayerPeak(peak.value, peak.depth, peak.layer, _place(peak.cell, grid), np.array(peak.tensor))
+
+
+def layered_halfplane_peak(
+    layers: Layers,
+    spacing: float,
+    force: ArrayLike,
+    boundary: Boundary = "free",
+    measure: Measure = "von_mises",
+    *,
+    element: Element = "mean",
+) -> LayerPeak:
+    """The largest von Mises or Tresca stress in a body of layers below a line of cells, in plane strain.
+
+    Parameters are those of :func:`layered_halfplane_stress_grid`, and the measure of :func:`halfplane_peak`. It is that
+    of all layers, both sides of their interfaces, the surface, and all depths from a quarter of a cell on.
+    """
+    arguments = line_arguments(spacing, force, element, boundary)
+    return _peak("fuge_layered_halfplane_peak", layers, arguments, measure, (arguments[0],))
+
+
+def layered_halfspace_peak(
+    layers: Layers,
+    spacing_x: float,
+    spacing_y: float,
+    force: ArrayLike,
+    boundary: AreaBoundary = "free",
+    measure: Measure = "von_mises",
+) -> LayerPeak:
+    """The largest von Mises or Tresca stress in a body of layers below a grid of cells.
+
+    Parameters are those of :func:`layered_halfspace_stress_grid`, and the measure of :func:`halfspace_peak`. It is that
+    below the centres of cells, of all layers, both sides of their interfaces, the surface, and all depths from a
+    quarter of a cell on.
+    """
+    grid, arguments = area_arguments(spacing_x, spacing_y, force, boundary)
+    return _peak("fuge_layered_halfspace_peak", layers, arguments, measure, grid)

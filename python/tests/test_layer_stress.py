@@ -55,6 +55,33 @@ class LayerStress(unittest.TestCase):
         self.assertEqual(only.tension_above, only.tension_below)
         self.assertEqual(len(fuge.layered_halfplane_interfaces(FILM, 0.2, ball()[4])), 2)
 
+    def test_points(self):
+        i = 0.2 * np.arange(9)
+        x, y = np.broadcast_arrays(i, i[:, None])
+        cells = (x.ravel(), y.ravel(), 0.2, 0.2, ball().ravel())
+        grid = fuge.layered_halfspace_stress_grid(FILM, 0.2, 0.2, ball(), 0.3, below=True)[0]
+        found = fuge.layered_halfspace_stress(FILM, *cells, x, y, 0.3, below=True)
+        np.testing.assert_allclose(found, grid, atol=1e-10)
+        grid = fuge.layered_halfspace_displacement_grid(FILM, 0.2, 0.2, ball(), 0.5)[0]
+        np.testing.assert_allclose(fuge.layered_halfspace_displacement(FILM, *cells, x, y, 0.5), grid, atol=1e-10)
+        row = ball()[4]
+        grid = fuge.layered_halfplane_stress_grid(FILM, 0.2, row, [0.0, 0.3])
+        np.testing.assert_allclose(fuge.layered_halfplane_stress(FILM, i, 0.2, row, i, [[0.0], [0.3]]), grid, atol=1e-10)
+        grid = fuge.layered_halfplane_displacement_grid(FILM, 0.2, row, 0.3)[0]
+        np.testing.assert_allclose(fuge.layered_halfplane_displacement(FILM, i, 0.2, row, i, 0.3), grid, atol=1e-10)
+
+    def test_peak(self):
+        peak = fuge.layered_halfspace_peak(FILM, 0.2, 0.2, ball())
+        depth = [0.0, 0.1, 0.3, 0.3, 0.6, 1.0]
+        stress = fuge.layered_halfspace_stress_grid(FILM, 0.2, 0.2, ball(), depth, below=[0, 0, 0, 1, 0, 0])
+        self.assertGreaterEqual(peak.value, fuge.von_mises(stress).max() * (1 - 1e-9))
+        self.assertAlmostEqual(peak.value, float(fuge.von_mises(peak.tensor)), delta=1e-12 * peak.value)
+        self.assertEqual(len(peak.cell), 2)
+        self.assertIn(peak.layer, (0, 1))
+        line = fuge.layered_halfplane_peak(FILM, 0.2, ball()[4], "periodic", "tresca")
+        self.assertGreater(line.value, 0.0)
+        self.assertEqual(len(line.cell), 1)
+
     def test_errors(self):
         rigid = fuge.Layers(0.3, [1.0, np.inf], 0.3)
         with self.assertRaisesRegex(fuge.InputError, "rigid base"):
