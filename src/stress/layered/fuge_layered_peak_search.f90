@@ -31,9 +31,12 @@ module fuge_layered_peak_search
   type, public :: fuge_layer_peak
     !> The von Mises or Tresca stress; force per length squared.
     real(dp) :: value = 0.0_dp
-    !> Where it lies: length; 1 is the top layer, the last number that of the substrate; the cell above it.
+    !> Where it lies, length.
     real(dp) :: depth = 0.0_dp
-    integer :: layer = 1, cell = 1
+    !> 1 is the top layer, the last number the substrate; layers that are bonded to the same material are one with it.
+    integer :: layer = 1
+    !> The cell above it.
+    integer :: cell = 1
     !> The stresses there, xx, yy, zz, yz, xz, xy.
     real(dp) :: tensor(6) = 0.0_dp
   end type fuge_layer_peak
