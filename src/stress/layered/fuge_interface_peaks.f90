@@ -4,7 +4,7 @@ module fuge_interface_peaks
   use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
   use fuge_kinds, only: dp
   use fuge_layer_stack, only: layer_stack
-  use fuge_layered_body_type, only: fuge_layered_body
+  use fuge_layered_body_type, only: copy_layers, fuge_layered_body
   use fuge_layered_halfplane_depths, only: fuge_layered_halfplane_stress_grid
   use fuge_layered_halfspace_depths, only: fuge_layered_halfspace_stress_grid
   use fuge_number_text, only: text
@@ -60,7 +60,8 @@ contains
     allocate (found(size(peaks)), principal(3, size(force)), stress(6, size(force), 2), stat=stat)
     call require_memory(stat, 'stresses at', size(force), 'cells', info)
     if (stat /= 0) return
-    stack = body%layers()
+    call copy_layers(body, stack, info)
+    if (info%failed()) return
     do k = 1, size(peaks)
       sides = sides_of(stack, k - 1)
       found(k)%depth = sum(stack%thickness(:k - 1))
@@ -98,7 +99,8 @@ contains
               stat=stat)
     call require_memory(stat, 'stresses at', size(force), 'cells', info)
     if (stat /= 0) return
-    stack = body%layers()
+    call copy_layers(body, stack, info)
+    if (info%failed()) return
     do k = 1, size(peaks)
       sides = sides_of(stack, k - 1)
       found(k)%depth = sum(stack%thickness(:k - 1))

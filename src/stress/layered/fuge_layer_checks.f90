@@ -3,7 +3,7 @@ module fuge_layer_checks
   use fuge_kinds, only: dp
   use fuge_layer_interior, only: find_cut, layer_cut
   use fuge_layer_stack, only: layer_stack
-  use fuge_layered_body_type, only: fuge_layered_body
+  use fuge_layered_body_type, only: copy_layers, fuge_layered_body
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_GRID, FUGE_ERR_SIZE
   implicit none
@@ -32,7 +32,8 @@ contains
                                                   //' values for '//text(size(depth))//' depths')
     end if
     if (info%failed()) return
-    stack = body%layers()
+    call copy_layers(body, stack, info)
+    if (info%failed()) return
     allocate (cut(size(depth)), stat=stat)
     call require_memory(stat, '', size(depth), 'depths', info)
     do k = 1, size(depth)
