@@ -15,7 +15,7 @@ module fuge_layer_interior
   implicit none
   private
 
-  public :: cut_at, find_cut, layer_at
+  public :: cut_at, find_cut, is_upper_half, layer_at
 
   !> Depths that differ by less are the same: the caller may have added the thicknesses up in another order, and no
   !> layer is as thin.
@@ -57,6 +57,18 @@ contains
       if (is_at(depth, bottom) .and. .not. below .or. depth < bottom .and. .not. is_at(depth, bottom)) return
     end do
   end function layer_at
+
+  !> Does the `depth`, one of the `layer`, lie in its upper half? At an interface that tells the side.
+  pure function is_upper_half(stack, layer, depth)
+    type(layer_stack), intent(in) :: stack
+    integer, intent(in) :: layer
+    real(dp), intent(in) :: depth
+    logical :: is_upper_half
+
+    is_upper_half = .true.
+    if (layer <= size(stack%thickness)) is_upper_half = depth < sum(stack%thickness(:layer - 1)) &
+                                                        + 0.5_dp*stack%thickness(layer)
+  end function is_upper_half
 
   !> As `find_cut`, for a stack of few layers.
   pure function cut_at(stack, depth, below) result(cut)

@@ -119,7 +119,7 @@ contains
       inverse(2, 1) = -(g(2)*h(1) + g(3)*h(2))
       inverse = inverse/joint_determinant(g, h)
     end associate
-    both%transmission = matmul(upper%transmission, matmul(inverse, lower%transmission))
+    both%transmission = product_of(upper%transmission, product_of(inverse, lower%transmission))
     both%compliance = upper%compliance + transmitted(upper%transmission, in_series(lower%compliance, upper%stiffness))
     both%stiffness = lower%stiffness &
                      + transmitted(transpose(lower%transmission), in_series(upper%stiffness, lower%compliance))
@@ -175,7 +175,7 @@ contains
     real(dp), intent(inout) :: traction(2)
     real(dp) :: f(2)
 
-    f = matmul(transpose(layer%transmission), traction)
+    f = transposed_times(layer%transmission, traction)
     ! (1 + H C)^-1 f.
     associate (c => below, h => layer%stiffness)
       traction(1) = (1.0_dp + h(2)*c(2) + h(3)*c(3))*f(1) - (h(1)*c(2) + h(2)*c(3))*f(2)
@@ -194,13 +194,32 @@ contains
     real(dp), intent(inout) :: traction(2)
     real(dp) :: f(2)
 
-    f = matmul(transpose(layer%transmission), traction)
+    f = transposed_times(layer%transmission, traction)
     associate (h => layer%stiffness)
       traction = [0.0_dp, (h(1)*f(2) - h(2)*f(1))/(h(1) + below*(h(1)*h(3) - h(2)**2))]
       displacement(2) = below*traction(2)
       displacement(1) = (f(1) - h(2)*displacement(2))/h(1)
     end associate
   end subroutine slid_down
+
+  !> A B: the compiler's `matmul` takes memory that nobody checks, and time for that.
+  pure function product_of(a, b) result(product)
+    real(dp), intent(in) :: a(2, 2), b(2, 2)
+    real(dp) :: product(2, 2)
+    integer :: k
+
+    do k = 1, 2
+      product(:, k) = a(:, 1)*b(1, k) + a(:, 2)*b(2, k)
+    end do
+  end function product_of
+
+  !> A^T x.
+  pure function transposed_times(a, x) result(product)
+    real(dp), intent(in) :: a(2, 2), x(2)
+    real(dp) :: product(2)
+
+    product = a(1, :)*x(1) + a(2, :)*x(2)
+  end function transposed_times
 
   !> F M F^T, of a symmetric M.
   pure function transmitted(f, m) result(product)

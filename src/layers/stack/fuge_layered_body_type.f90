@@ -12,7 +12,7 @@ module fuge_layered_body_type
   implicit none
   private
 
-  public :: check_layers
+  public :: check_layers, copy_layers
 
   !> The largest ratio of two thicknesses or moduli.
   real(dp), parameter, public :: LARGEST_RATIO = 1.0e8_dp
@@ -350,6 +350,17 @@ contains
 
     stack = self%first
   end function layers
+
+  !> As `layers`, checked. FUGE_ERR_MEMORY.
+  subroutine copy_layers(body, stack, info)
+    type(fuge_layered_body), intent(in) :: body
+    type(layer_stack), intent(out) :: stack
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    call copy_stack(body%first, stack, stat)
+    call require_memory(stat, 'a body of', body%interfaces(), 'layers', info)
+  end subroutine copy_layers
 
   !> Is it more than a half-space?
   elemental function has_layers(self)

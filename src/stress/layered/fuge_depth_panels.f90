@@ -8,8 +8,9 @@ module fuge_depth_panels
   use fuge_constants, only: PI
   use fuge_depth_mixture, only: depth_mixture, fit_at_depths
   use fuge_kinds, only: dp
-  use fuge_layer_interior, only: cut_at, layer_cut
+  use fuge_layer_interior, only: find_cut, is_upper_half, layer_cut
   use fuge_layer_stack, only: layer_stack
+  use fuge_layered_body_type, only: copy_layers, fuge_layered_body
   use fuge_status, only: fuge_info, require_memory
   implicit none
   private
@@ -42,17 +43,17 @@ module fuge_depth_panels
 
 contains
 
-  !> Fit mixtures for each `depth` (m), length, each in its `layer` (m) of the `stack`. FUGE_ERR_MEMORY.
-  subroutine fit(self, stack, layer, depth, info)
+  !> Fit mixtures for each `depth` (m), length, each in its `layer` (m) of the `body`. FUGE_ERR_MEMORY.
+  subroutine fit(self, body, layer, depth, info)
     class(depth_panels), intent(out) :: self
-    type(layer_stack), intent(in) :: stack
+    type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: layer(:)
     real(dp), intent(in) :: depth(:)
     type(fuge_info), intent(inout) :: info
     integer :: k
 
     if (info%failed()) return
-    self%stack = stack
+    call copy_layers(body, self%stack, info)
     do k = 1, size(depth)
       call add_depth(self, layer(k), depth(k), info)
     end do
@@ -149,32 +150,22 @@ contains
     type(depth_panel), intent(inout) :: panel
     type(fuge_info), intent(inout) :: info
     type(layer_cut) :: cut(NODES)
-    real(dp) :: top
-    integer :: k
+    integer :: k, stat
 
+    if (info%failed()) return
     if (panel%many) then
       do k = 1, NODES
         panel%node(k) = panel%least + (panel%greatest - panel%least) &
                         *sin(0.5_dp*PI*real(k - 1, dp)/real(NODES - 1, dp))**2
       end do
     end if
-    top = sum(stack%thickness(:panel%layer - 1))
     do k = 1, panel%number
-      cut(k) = cut_at(stack, panel%node(k), is_upper_side(stack, panel%layer, top, panel%node(k)))
+      call find_cut(stack, panel%node(k), is_upper_half(stack, panel%layer, panel%node(k)), cut(k), stat)
+      call require_memory(stat, 'the layers at', panel%number, 'depths', info)
+      if (stat /= 0) return
     end do
     call fit_at_depths(cut(:panel%number), panel%node(:panel%number), panel%mixture(:panel%number), info)
   end subroutine fit_panel
-
-  !> Is the depth nearer to the upper side of the layer, at `top`, than to the lower one?
-  pure function is_upper_side(stack, layer, top, depth) result(is_upper)
-    type(layer_stack), intent(in) :: stack
-    integer, intent(in) :: layer
-    real(dp), intent(in) :: top, depth
-    logical :: is_upper
-
-    is_upper = .true.
-    if (layer <= size(stack%thickness)) is_upper = depth - top < 0.5_dp*stack%thickness(layer)
-  end function is_upper_side
 
   !> The number of the shortest length of all mixtures.
   pure function first_length(self) result(first)

@@ -84,22 +84,20 @@ contains
     type(fuge_interface_stress), intent(inout) :: peaks(:)
     type(fuge_info), intent(inout) :: info
     type(fuge_interface_stress), allocatable :: found(:)
-    type(layer_stack) :: stack
     real(dp), allocatable :: principal(:, :), tensor(:, :, :)
     integer :: k, side, sides, stat
 
     call check_peaks(body, size(peaks), info)
     if (info%failed()) return
-    grid%body = body
-    allocate (grid%force(size(force)), found(size(peaks)), principal(3, size(force)), tensor(6, size(force), 2), &
+    call grid%press(body, force, info)
+    if (info%failed()) return
+    allocate (found(size(peaks)), principal(3, size(force)), tensor(6, size(force), 2), &
               stat=stat)
     call require_memory(stat, 'stresses at', size(force), 'cells', info)
     if (stat /= 0) return
-    grid%force = force
-    stack = body%layers()
     do k = 1, size(peaks)
-      sides = sides_of(stack, k - 1)
-      found(k)%depth = sum(stack%thickness(:k - 1))
+      sides = sides_of(grid%stack, k - 1)
+      found(k)%depth = sum(grid%stack%thickness(:k - 1))
       call grid%tensors(spread(found(k)%depth, 1, sides), BELOW(:sides), tensor(:, :, :sides), info)
       do side = 1, sides
         if (.not. info%failed()) call take_side(tensor(:, :, side), side, principal, found(k), info)

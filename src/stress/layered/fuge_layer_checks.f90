@@ -2,9 +2,9 @@
 module fuge_layer_checks
   use fuge_depth_mixture, only: uniform_stress, yield_below
   use fuge_kinds, only: dp
-  use fuge_layer_interior, only: find_cut, layer_at, layer_cut
+  use fuge_layer_interior, only: find_cut, is_upper_half, layer_at, layer_cut
   use fuge_layer_stack, only: layer_stack
-  use fuge_layered_body_type, only: fuge_layered_body
+  use fuge_layered_body_type, only: copy_layers, fuge_layered_body
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_GRID, FUGE_ERR_SIZE
   implicit none
@@ -35,7 +35,8 @@ contains
                                                   //' values for the '//text(size(depth))//' of '//name)
     end if
     if (info%failed()) return
-    stack = body%layers()
+    call copy_layers(body, stack, info)
+    if (info%failed()) return
     allocate (layer(size(depth)), stat=stat)
     call require_memory(stat, 'the layers at', size(depth), 'depths', info)
     do k = 1, size(depth)
@@ -99,12 +100,13 @@ contains
     integer :: k, stat
 
     if (info%failed()) return
-    stack = body%layers()
+    call copy_layers(body, stack, info)
+    if (info%failed()) return
     allocate (uniform(3, size(depth)), stat=stat)
     call require_memory(stat, 'results at', size(depth), 'depths', info)
     do k = 1, size(depth)
       if (info%failed()) return
-      call find_cut(stack, depth(k), layer_at(stack, depth(k), .false.) < layer(k), cut, stat)
+      call find_cut(stack, depth(k), is_upper_half(stack, layer(k), depth(k)), cut, stat)
       call require_memory(stat, 'the layers at', size(depth), 'depths', info)
       if (stat /= 0) return
       uniform(:2, k) = uniform_stress(cut, plane_strain)

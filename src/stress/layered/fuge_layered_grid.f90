@@ -4,7 +4,7 @@ module fuge_layered_grid
   use fuge_kinds, only: dp
   use fuge_layer_interior, only: layer_at
   use fuge_layer_stack, only: layer_stack
-  use fuge_layered_body_type, only: fuge_layered_body
+  use fuge_layered_body_type, only: copy_layers, fuge_layered_body
   use fuge_layered_halfplane_depths, only: fuge_layered_halfplane_stress_grid
   use fuge_layered_halfspace_depths, only: fuge_layered_halfspace_stress_grid
   use fuge_status, only: fuge_info, require_memory
@@ -13,7 +13,9 @@ module fuge_layered_grid
   private
 
   type, public :: layered_grid
+    !> The body and its layers.
     type(fuge_layered_body) :: body
+    type(layer_stack) :: stack
     !> A line of cells along x, or an area?
     logical :: is_line = .false.
     integer :: cells(2) = 1, boundary = 0, element = 0
@@ -21,10 +23,28 @@ module fuge_layered_grid
     !> (cells(1)*cells(2)).
     real(dp), allocatable :: force(:)
   contains
+    procedure :: press
     procedure :: tensors
   end type layered_grid
 
 contains
+
+  !> Let the forces act on a body that is set. FUGE_ERR_MEMORY.
+  subroutine press(self, body, force, info)
+    class(layered_grid), intent(inout) :: self
+    type(fuge_layered_body), intent(in) :: body
+    real(dp), intent(in) :: force(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    if (info%failed()) return
+    self%body = body
+    allocate (self%force(size(force)), stat=stat)
+    call require_memory(stat, 'the forces of', size(force), 'cells', info)
+    if (stat /= 0) return
+    self%force = force
+    call copy_layers(body, self%stack, info)
+  end subroutine press
 
   !> `tensor` (6, cells, m): xx, yy, zz, yz, xz, xy below the centres of cells at each `depth` (m), at an interface above
   !> it or `below` (m). Errors, `tensor` untouched: those of `fuge_layered_halfspace_stress_grid` and
@@ -35,7 +55,6 @@ contains
     logical, intent(in) :: below(:)
     real(dp), intent(inout) :: tensor(:, :, :)
     type(fuge_info), intent(out) :: info
-    type(layer_stack) :: stack
     real(dp), allocatable :: stress(:, :, :)
     integer :: k, stat
 
@@ -50,10 +69,9 @@ contains
     call fuge_layered_halfplane_stress_grid(self%body, self%spacing(1), self%force, self%element, self%boundary, depth, &
                                             stress, info, below)
     if (info%failed()) return
-    stack = self%body%layers()
     do k = 1, size(depth)
       call fuge_halfplane_tensor(stress(:, :, k), FUGE_PLANE_STRAIN, &
-                                 stack%poisson(layer_at(stack, depth(k), below(k))), tensor(:, :, k), info)
+                                 self%stack%poisson(layer_at(self%stack, depth(k), below(k))), tensor(:, :, k), info)
     end do
   end subroutine tensors
 

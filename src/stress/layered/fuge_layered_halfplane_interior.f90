@@ -143,7 +143,7 @@ contains
     if (present(symmetric)) folded = symmetric
     call loads%take_line(x, width, force, folded, stat)
     call require_memory(stat, 'the line of', size(x), 'cells', info)
-    if (stat == 0) call panels%fit(body%layers(), layer, pz, info)
+    if (stat == 0) call panels%fit(body, layer, pz, info)
     reach = datum_length(x, width, folded)
     do k = 1, size(pz)
       if (info%failed() .or. size(loads%force) < 1) return

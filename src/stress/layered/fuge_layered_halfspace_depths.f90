@@ -177,7 +177,7 @@ contains
     allocate (work%plain(components, size(force), size(work%in_top)), stat=stat)
     call require_memory(stat, 'results at', size(force), 'cells', info)
     if (size(depth) < 1) return
-    call work%panels%fit(body%layers(), work%layer, depth, info)
+    call work%panels%fit(body, work%layer, depth, info)
     if (work%grid%boundary == FUGE_PERIODIC) call find_uniform(body, depth, work%layer, .false., work%uniform, info)
     if (info%failed()) return
     kind = PLACES_OF

@@ -122,7 +122,7 @@ contains
     call area%set(x, y, width_x, width_y, force, symmetric, stat)
     if (stat == 0) call loads%take_area(area, stat)
     call require_memory(stat, 'the area of', size(x), 'rectangles', info)
-    if (stat == 0) call panels%fit(body%layers(), layer, pz, info)
+    if (stat == 0) call panels%fit(body, layer, pz, info)
     do k = 1, size(pz)
       if (info%failed() .or. area%count < 1) return
       call panels%mixture_at(layer(k), pz(k), mixture)

@@ -5,7 +5,7 @@
 !> at equal ratios miss no maximum. Each that may be the largest one is then found by parabolas and the golden section.
 module fuge_layered_peak_search
   use fuge_kinds, only: dp
-  use fuge_layer_stack, only: layer_stack
+  use fuge_layer_interior, only: is_upper_half
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_layered_grid, only: layered_grid
   use fuge_peak_values, only: measure_all
@@ -105,11 +105,11 @@ contains
       call report(info, FUGE_ERR_CALL_ORDER, 'body: no layers are set')
       return
     end if
-    grid%body = body
-    allocate (grid%force(size(force)), tensor(6, size(force), 1), at(0), stat=stat)
-    call require_memory(stat, 'the forces of', size(force), 'cells', info)
+    call grid%press(body, force, info)
+    if (info%failed()) return
+    allocate (tensor(6, size(force), 1), at(0), stat=stat)
+    call require_memory(stat, 'stresses at', size(force), 'cells', info)
     if (stat /= 0) return
-    grid%force = force
     ! What is no grid is refused.
     call grid%tensors([0.0_dp], [.false.], tensor, info)
     if (info%failed()) return
@@ -135,22 +135,20 @@ contains
 
   !> The depths of all layers, both sides of each interface included, from the surface down; `number` of them, as many
   !> as there is room for in `at`.
-  subroutine list_depths(grid, at, number)
+  pure subroutine list_depths(grid, at, number)
     type(layered_grid), intent(in) :: grid
     type(fuge_layer_peak), intent(inout) :: at(:)
     integer, intent(out) :: number
-    type(layer_stack) :: stack
     real(dp) :: bottom, top
     integer :: count, k, layers
 
-    stack = grid%body%layers()
-    layers = size(stack%shear)
-    if (stack%is_rigid()) layers = layers - 1
+    layers = size(grid%stack%shear)
+    if (grid%stack%is_rigid()) layers = layers - 1
     number = 0
     do k = 1, layers
-      top = sum(stack%thickness(:k - 1))
-      bottom = sum(stack%thickness(:min(k, size(stack%thickness))))
-      if (k > size(stack%thickness)) bottom = top + LAST_DEPTH*extent_of(grid)
+      top = sum(grid%stack%thickness(:k - 1))
+      bottom = sum(grid%stack%thickness(:min(k, size(grid%stack%thickness))))
+      if (k > size(grid%stack%thickness)) bottom = top + LAST_DEPTH*extent_of(grid)
       count = number_of_depths(grid, top, bottom)
       if (number + count <= size(at)) then
         call place_depths(grid, top, bottom, at(number + 1:number + count))
@@ -212,19 +210,16 @@ contains
     integer, intent(in) :: measure
     type(fuge_layer_peak), intent(inout) :: at(:)
     type(fuge_info), intent(inout) :: info
-    type(layer_stack) :: stack
     real(dp), allocatable :: normal(:), tensor(:, :, :), value(:)
     logical, allocatable :: below(:)
     integer :: first, k, last, stat
 
-    stack = grid%body%layers()
     allocate (tensor(6, size(grid%force), min(PORTION, size(at))), value(size(grid%force)), normal(size(grid%force)), &
               below(size(at)), stat=stat)
     call require_memory(stat, 'stresses at', size(grid%force), 'cells', info)
     if (info%failed()) return
     do k = 1, size(at)
-      below(k) = at(k)%layer > size(stack%thickness)
-      if (.not. below(k)) below(k) = at(k)%depth < sum(stack%thickness(:at(k)%layer)) - 0.5_dp*stack%thickness(at(k)%layer)
+      below(k) = is_upper_half(grid%stack, at(k)%layer, at(k)%depth)
     end do
     do first = 1, size(at), PORTION
       last = min(first + PORTION - 1, size(at))
