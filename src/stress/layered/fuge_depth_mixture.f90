@@ -228,8 +228,8 @@ contains
               -response(ALONG)]
   end function functions_of
 
-  !> Weights of functions with the power `m`, by least squares, for `sets` of values. `values` (waves, sets) are used up.
-  !> With m = 1 the limits of the weights are known: they are in `weights` (unknowns, sets) already. `stat` as in an
+  !> Weights of functions with the power `m`, by least squares, for `sets` of values. `values` (waves, sets) are used
+  !> up. With m = 1 the limits of the weights are known: they are in `weights` (unknowns, sets) already. `stat` as in an
   !> allocate statement.
   subroutine fit_powers(first, m, q, unknowns, sets, values, weights, stat)
     integer, intent(in) :: first, m, unknowns, sets

@@ -69,8 +69,8 @@ contains
     end do
   end subroutine points_in_top
 
-  !> The points in the top layer, `which`, and room for their part and for all results, which are 0, (components, points).
-  !> FUGE_ERR_MEMORY.
+  !> The points in the top layer, `which`, and room for their part and for all results, which are 0, (components,
+  !> points). FUGE_ERR_MEMORY.
   subroutine start_points(layer, components, which, plain, found, info)
     integer, intent(in) :: layer(:), components
     integer, allocatable, intent(out) :: which(:)

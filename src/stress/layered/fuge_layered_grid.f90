@@ -46,8 +46,8 @@ contains
     call copy_layers(body, self%stack, info)
   end subroutine press
 
-  !> `tensor` (6, cells, m): xx, yy, zz, yz, xz, xy below the centres of cells at each `depth` (m), at an interface above
-  !> it or `below` (m). Errors, `tensor` untouched: those of `fuge_layered_halfspace_stress_grid` and
+  !> `tensor` (6, cells, m): xx, yy, zz, yz, xz, xy below the centres of cells at each `depth` (m), at an interface
+  !> above it or `below` (m). Errors, `tensor` untouched: those of `fuge_layered_halfspace_stress_grid` and
   !> `fuge_layered_halfplane_stress_grid`.
   subroutine tensors(self, depth, below, tensor, info)
     class(layered_grid), intent(in) :: self
@@ -66,8 +66,8 @@ contains
     allocate (stress(3, size(self%force), size(depth)), stat=stat)
     call require_memory(stat, 'stresses at', size(self%force), 'cells', info)
     if (stat /= 0) return
-    call fuge_layered_halfplane_stress_grid(self%body, self%spacing(1), self%force, self%element, self%boundary, depth, &
-                                            stress, info, below)
+    call fuge_layered_halfplane_stress_grid(self%body, self%spacing(1), self%force, self%element, self%boundary, &
+                                            depth, stress, info, below)
     if (info%failed()) return
     do k = 1, size(depth)
       call fuge_halfplane_tensor(stress(:, :, k), FUGE_PLANE_STRAIN, &

@@ -46,10 +46,10 @@ contains
   !> The largest von Mises or Tresca stress in a body of layers below the centres of a grid of rectangles.
   !>
   !> `body`, `nx`, `ny`, `spacing_x`, `spacing_y`, `force` and `boundary` as for `fuge_layered_halfspace_stress_grid`;
-  !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, of all layers, both sides of their interfaces,
-  !> the surface, and all depths from a quarter of a cell on: the value to 1e-9 or better of the largest one below the
-  !> centres of cells, whose distance is what limits it. Where the pressure grows towards the edge of a flat punch it is
-  !> that of the grid.
+  !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, of all layers, both sides of their
+  !> interfaces, the surface, and all depths from a quarter of a cell on: the value to 1e-9 or better of the largest one
+  !> below the centres of cells, whose distance is what limits it. Where the pressure grows towards the edge of a flat
+  !> punch it is that of the grid.
   !>
   !> Ten arguments: the grid alone has four. Errors, `peak` untouched: those of `fuge_layered_halfspace_stress_grid`;
   !> FUGE_ERR_OPTION for `measure`; FUGE_ERR_OVERFLOW if no stress is finite.

@@ -12,7 +12,8 @@ module fuge_point_gaussians
   private
 
   !> Derivatives along x and y: none, x, y, minus xx, minus yy, and minus xy.
-  integer, parameter, public :: PLAIN = 1, SLOPE_X = 2, SLOPE_Y = 3, CURVE_X = 4, CURVE_Y = 5, TWIST = 6, DERIVATIVES = 6
+  integer, parameter, public :: PLAIN = 1, SLOPE_X = 2, SLOPE_Y = 3, CURVE_X = 4, CURVE_Y = 5, TWIST = 6
+  integer, parameter :: DERIVATIVES = 6
   integer, parameter :: ORDERS(2, DERIVATIVES) = reshape([0, 0, 1, 0, 0, 1, 2, 0, 0, 2, 1, 1], [2, DERIVATIVES])
   !> Terms of the series of long Gaussians, in 1/t**2, after the first one; they count as long from FAR times the
   !> greatest distance on.
@@ -39,8 +40,8 @@ module fuge_point_gaussians
   type, public :: point_gaussians
     !> Lengths are the caller's over 2**unit, forces over 2**force_unit.
     integer :: unit = 0, force_unit = 0, directions = 0
-    !> Lengths number first, first + 1, .., the sums for them, (lengths, derivatives), and coefficients of the series of longer
-    !> ones, (0:, derivatives).
+    !> Lengths number first, first + 1, .., the sums for them, (lengths, derivatives), and coefficients of the series of
+    !> longer ones, (0:, derivatives).
     integer :: first = 0
     real(dp), allocatable :: t(:), near(:, :)
     real(dp) :: series(0:TERMS, DERIVATIVES) = 0.0_dp
@@ -192,8 +193,8 @@ contains
     end if
   end function average_of
 
-  !> The sums over j of `square`**j/(2 j + 1)! times the Hermite polynomials of the orders 2 j, 2 j + 1 and 2 j + 2 of x:
-  !> a Gaussian in Taylor's series, averaged.
+  !> The sums over j of `square`**j/(2 j + 1)! times the Hermite polynomials of the orders 2 j, 2 j + 1 and 2 j + 2 of
+  !> x: a Gaussian in Taylor's series, averaged.
   pure function hermite_sums(x, square) result(total)
     real(dp), intent(in) :: x, square
     real(dp) :: total(0:2)

@@ -1,8 +1,8 @@
 !> What `fuge_fft` calls where the library is built without FFTW (FUGE_WITH_FFTW=OFF): there is no memory, and no plan.
 !>
-!> It takes the place of src/core/numerics/fourier/fuge_fftw.f90, and lies outside of src/core/ because fpm compiles all that is
-!> there. The names, arguments and constants are those of that module. Nothing is executed: `set` of an `fft_plan` asks
-!> HAS_FFTW and refuses.
+!> It takes the place of src/core/numerics/fourier/fuge_fftw.f90, and lies outside of src/core/ because fpm compiles all
+!> that is there. The names, arguments and constants are those of that module. Nothing is executed: `set` of an
+!> `fft_plan` asks HAS_FFTW and refuses.
 module fuge_fftw
   use, intrinsic :: iso_c_binding, only: c_int, c_null_ptr, c_ptr, c_size_t
   implicit none

@@ -1,7 +1,7 @@
 !> The independent certificate: how far a solution is from the conditions of the contact problem.
 !>
-!> It sees only the caller's data, and shares no arithmetic with any engine: only the call of the operator, the loop over
-!> chunks of points, and what the model offers to all, its point laws and lengths of data.
+!> It sees only the caller's data, and shares no arithmetic with any engine: only the call of the operator, the loop
+!> over chunks of points, and what the model offers to all, its point laws and lengths of data.
 module fuge_certificate
   use fuge_certificate_judgement, only: judge_points
   use fuge_certificate_passes, only: add_rounding_of_bodies, certificate_pass, find_arms, find_rigid_displacement, &

@@ -106,11 +106,10 @@ contains
   !> Plan transforms of `length` >= 1 values.
   !>
   !> With `measured` (default .false.) FFTW measures which algorithm is fastest, which takes seconds for long
-  !> transforms. `separate` (default .false.) plans for `transform_to`; then `length` must be even. With `lines` >= 1 the
-  !> values are a grid of as many lines, transformed in both directions; then `separate` is not allowed.
-  !> `single` (default .false.) needs `separate`.
-  !> Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a library that was built
-  !> without FFTW.
+  !> transforms. `separate` (default .false.) plans for `transform_to`; then `length` must be even. With `lines` >= 1
+  !> the values are a grid of as many lines, transformed in both directions; then `separate` is not allowed. `single`
+  !> (default .false.) needs `separate`. Errors, the plan unchanged: FUGE_ERR_SIZE, FUGE_ERR_MEMORY;
+  !> FUGE_ERR_UNSUPPORTED in a library that was built without FFTW.
   subroutine set(self, length, info, measured, separate, lines, single)
     class(fft_plan), intent(inout) :: self
     integer, intent(in) :: length

@@ -113,8 +113,8 @@ contains
     lost = .true.
   end subroutine run_single_gradients
 
-  !> The residual at which the iteration stops, as far as its distances tell: that of the tolerance, or one that lets the
-  !> set be judged.
+  !> The residual at which the iteration stops, as far as its distances tell: that of the tolerance, or one that lets
+  !> the set be judged.
   elemental function residual_needed(iterate, tolerance, to_tolerance)
     type(contact_iterate), intent(in) :: iterate
     real(dp), intent(in) :: tolerance

@@ -166,8 +166,8 @@ contains
     exact = pass%largest(1) >= CURRENT*state%largest
   end subroutine make_exact
 
-  !> Forces of sum 1 in the contact, in which they have the sum `total` now; equal ones if that is not positive. Where the
-  !> motion is prescribed, those that push.
+  !> Forces of sum 1 in the contact, in which they have the sum `total` now; equal ones if that is not positive. Where
+  !> the motion is prescribed, those that push.
   subroutine set_load(scene, total, state, iterate)
     type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: total
