@@ -16,6 +16,8 @@ module fuge_layered_body_type
 
   !> The largest ratio of two thicknesses or moduli.
   real(dp), parameter, public :: LARGEST_RATIO = 1.0e8_dp
+  !> The least share of a layer in the thickness of all: depths in it are told apart.
+  real(dp), parameter :: LEAST_SHARE = 1.0e-11_dp
   !> Long waves are those of the substrate to rounding, or on a rigid base negligible, from this many times the length
   !> on at which the layers and the substrate displace the surface equally.
   real(dp), parameter :: LONG = 1.0e3_dp, LONG_ON_RIGID = 30.0_dp
@@ -43,6 +45,7 @@ module fuge_layered_body_type
     procedure :: interfaces
     procedure :: poisson => poisson_of_top
     procedure :: young => young_of_top
+    procedure :: least_young
     procedure :: is_set
   end type fuge_layered_body
 
@@ -157,6 +160,9 @@ contains
     if (maxval(thickness) > LARGEST_RATIO*minval(thickness)) then
       call report(info, FUGE_ERR_WIDTH, 'thickness: the ratio of the thickest to the thinnest layer is at most ' &
                   //text(LARGEST_RATIO))
+    else if (minval(thickness) < LEAST_SHARE*sum(thickness)) then
+      call report(info, FUGE_ERR_WIDTH, 'thickness: the thinnest layer has at least '//text(LEAST_SHARE) &
+                  //' of the thickness of all')
     else if (maxval(young, mask=ieee_is_finite(young)) > LARGEST_RATIO*minval(young)) then
       call report(info, FUGE_ERR_MODULUS, 'young: the ratio of the stiffest to the softest layer is at most ' &
                   //text(LARGEST_RATIO)//'; an infinite last one is a rigid base')
@@ -395,6 +401,16 @@ contains
 
     young = self%modulus/self%share(1)*(1.0_dp - self%poisson()**2)
   end function young_of_top
+
+  !> The least Young's modulus of the layers and of what is below them, of a body that is set.
+  pure function least_young(self) result(young)
+    class(fuge_layered_body), intent(in) :: self
+    real(dp) :: young
+
+    young = self%young()
+    if (self%has_layers()) young = young*minval(self%first%shear*(1.0_dp + self%first%poisson)) &
+                                   /(1.0_dp + self%poisson())
+  end function least_young
 
   !> T of a wave `q` > 0, 1/length: pressure displaces the surface by 2 T/(e_star q) times itself.
   elemental function factor_of_wave(self, q) result(factor)

@@ -17,6 +17,9 @@ module fuge_depth_panels
 
   !> Depths of a panel at which mixtures are fitted, at most.
   integer, parameter :: NODES = 18
+  !> Between depths that are closer than this fraction of them linear interpolation is exact, and more nodes would be
+  !> the same numbers.
+  real(dp), parameter :: CLOSE = 1.0e-9_dp
   !> The most panels of a layer: depths are numbers.
   integer, parameter :: MOST_OCTAVES = 4096
 
@@ -153,7 +156,10 @@ contains
     integer :: k, stat
 
     if (info%failed()) return
-    if (panel%many) then
+    if (panel%many .and. panel%greatest - panel%least < CLOSE*scale_of(stack, panel)) then
+      panel%number = 2
+      panel%node(:2) = [panel%least, panel%greatest]
+    else if (panel%many) then
       do k = 1, NODES
         panel%node(k) = panel%least + (panel%greatest - panel%least) &
                         *sin(0.5_dp*PI*real(k - 1, dp)/real(NODES - 1, dp))**2
@@ -166,6 +172,16 @@ contains
     end do
     call fit_at_depths(cut(:panel%number), panel%node(:panel%number), panel%mixture(:panel%number), info)
   end subroutine fit_panel
+
+  !> A length over which what waves give varies in the panel.
+  pure function scale_of(stack, panel) result(length)
+    type(layer_stack), intent(in) :: stack
+    type(depth_panel), intent(in) :: panel
+    real(dp) :: length
+
+    length = panel%greatest
+    if (panel%layer == 1) length = stack%thickness(1)
+  end function scale_of
 
   !> The number of the shortest length of all mixtures.
   pure function first_length(self) result(first)
@@ -211,6 +227,10 @@ contains
 
     if (any(is_same(panel%node(:panel%number), depth))) then
       share = merge(1.0_dp, 0.0_dp, is_same(panel%node(:panel%number), depth))
+      return
+    end if
+    if (size(share) == 2) then
+      share = [panel%node(2) - depth, depth - panel%node(1)]/(panel%node(2) - panel%node(1))
       return
     end if
     do k = 1, size(share)

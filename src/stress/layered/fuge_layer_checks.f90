@@ -6,11 +6,12 @@ module fuge_layer_checks
   use fuge_layer_stack, only: layer_stack
   use fuge_layered_body_type, only: copy_layers, fuge_layered_body
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_GRID, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_GRID, &
+    FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
   implicit none
   private
 
-  public :: find_layers, find_uniform, points_in_top, start_points
+  public :: find_layers, find_uniform, points_in_top, require_finite, start_points
 
 contains
 
@@ -84,6 +85,15 @@ contains
     call require_memory(stat, 'results at', size(layer), 'points', info)
     if (stat == 0) found = 0.0_dp
   end subroutine start_points
+
+  !> Refuse displacements that are not finite (FUGE_ERR_OVERFLOW).
+  pure subroutine require_finite(displacement, info)
+    real(dp), intent(in) :: displacement(:, :)
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed() .or. all(abs(displacement) <= huge(1.0_dp))) return
+    call report(info, FUGE_ERR_OVERFLOW, 'displacements are out of range: choose other units')
+  end subroutine require_finite
 
   !> What equal pressure everywhere gives at each `depth` (m), length, in its `layer`: `uniform` (3, m), the stresses xx
   !> and zz over the pressure, zz in the top layer without that of a half-space, and how far it moves down, over the

@@ -119,7 +119,7 @@ contains
     call check_halfplane_grid(spacing, force, element, boundary, depth, shape(displacement), 'displacement', 2, info)
     call find_layers(body, depth, 'depth', work%layer, info, below)
     if (info%failed()) return
-    call check_grid_strain(force, spacing, body%young(), info)
+    call check_grid_strain(force, spacing, body%least_young(), info)
     if (info%failed()) return
     if (.not. body%has_layers()) then
       call fuge_halfplane_displacement_grid(spacing, force, element, boundary, body%young(), body%poisson(), &

@@ -8,7 +8,7 @@ module fuge_layered_halfplane_interior
   use fuge_halfplane_interior, only: check_points, displacement_factors, fuge_halfplane_displacement, &
     fuge_halfplane_stress
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: find_layers, start_points
+  use fuge_layer_checks, only: find_layers, require_finite, start_points
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_point_gaussians, only: point_gaussians, point_loads, PLAIN, SLOPE_X
   use fuge_pressed_line, only: check_line, pressed_line
@@ -43,9 +43,11 @@ contains
 
     call check(body, x, width, force, element, px, pz, layer, info, below, symmetric)
     call check_result(shape(stress), 'stress', 3, size(pz), info)
+    if (info%failed()) return
     call start_points(layer, 3, which, plain, found, info)
     if (.not. info%failed()) call fuge_halfplane_stress(x, width, force, element, px(which), pz(which), plain, info, &
                                                         symmetric)
+    if (info%failed()) return
     call add_layers(body, x, width, force, layer, px, pz, found, info, symmetric)
     if (info%failed()) return
     do k = 1, size(which)
@@ -79,10 +81,12 @@ contains
     call check(body, x, width, force, element, px, pz, layer, info, below, symmetric)
     call check_result(shape(displacement), 'displacement', 2, size(pz), info)
     if (.not. info%failed()) call displacement_factors(body%young(), body%poisson(), FUGE_PLANE_STRAIN, factor, info)
+    if (info%failed()) return
     call start_points(layer, 2, which, plain, found, info)
     if (.not. info%failed()) call fuge_halfplane_displacement(x, width, force, element, body%young(), body%poisson(), &
                                                               FUGE_PLANE_STRAIN, px(which), pz(which), plain, info, &
                                                               symmetric)
+    if (info%failed()) return
     call add_layers(body, x, width, force, layer, px, pz, found, info, symmetric)
     if (info%failed()) return
     ! 1/(2 G) of the top layer.
@@ -90,7 +94,8 @@ contains
     do k = 1, size(which)
       found(:, which(k)) = found(:, which(k)) + plain(:, k)
     end do
-    displacement = found
+    call require_finite(found, info)
+    if (.not. info%failed()) displacement = found
   end subroutine fuge_layered_halfplane_displacement
 
   !> Refuse what is no load, no point or no body, and find the `layer` (points) of each point. Errors: those of

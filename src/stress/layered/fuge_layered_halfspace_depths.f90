@@ -54,8 +54,9 @@ contains
   !> `spacing_y`, `force`, `boundary`, `depth` and `stress` as for `fuge_halfspace_stress_grid`. A depth at an interface
   !> is above it, or below where `below` (m, default .false.) says so: xx, yy and xy differ. Errors are about 1e-14 of
   !> the pressure, and of stiff films 1e-15 of their stress under the longest waves: 1e-9 of xx for films 1e6 times as
-  !> stiff. With FUGE_PERIODIC the mean pressure gives the half-space below the layers no stress along the surface, and
-  !> the layers the same strain as it has; on a rigid base none, but layers that slide have no stress along the surface.
+  !> stiff; up to 1e-7 where a soft incompressible layer lies between stiff ones, which slide on it as on a fluid. With
+  !> FUGE_PERIODIC the mean pressure gives the half-space below the layers no stress along the surface, and the layers
+  !> the same strain as it has; on a rigid base none, but layers that slide have no stress along the surface.
   !>
   !> Eleven arguments, because the grid alone has four. Errors, stress untouched: as for `fuge_halfspace_stress_grid`,
   !> FUGE_ERR_CALL_ORDER for a body that is not set, FUGE_ERR_GRID for a depth in a rigid base. Source:
@@ -127,7 +128,7 @@ contains
     call check_stress_grid(work%grid, force, depth, shape(displacement), 'displacement', 3, info)
     call find_layers(body, depth, 'depth', work%layer, info, below)
     if (info%failed()) return
-    call check_grid_strain(force, product(work%grid%spacing), body%young(), info)
+    call check_grid_strain(force, product(work%grid%spacing), body%least_young(), info)
     if (.not. info%failed() .and. .not. body%has_layers()) then
       call fuge_halfspace_displacement_grid(nx, ny, spacing_x, spacing_y, force, boundary, body%young(), &
                                             body%poisson(), depth, displacement, info)

@@ -8,7 +8,7 @@ module fuge_layered_halfspace_interior
   use fuge_depth_panels, only: depth_panels
   use fuge_halfspace_interior, only: check_points, fuge_halfspace_displacement, fuge_halfspace_stress, given_symmetry
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: find_layers, start_points
+  use fuge_layer_checks, only: find_layers, require_finite, start_points
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_point_gaussians, only: point_gaussians, point_loads, CURVE_X, CURVE_Y, PLAIN, SLOPE_X, SLOPE_Y, TWIST
   use fuge_pressed_area, only: check_area, pressed_area
@@ -25,9 +25,9 @@ contains
   !>
   !> `body` is set; they are those in the body that it was set with, not in the other one. `below` (points, default
   !> .false.): a point at an interface is above it, or below; xx, yy and xy differ. All else as in
-  !> `fuge_halfspace_stress`. Errors are about 1e-13 of the pressure, and of stiff films 1e-15 of their stress under the
-  !> longest waves. The time grows with the number of points times that of rectangles: on regular grids
-  !> `fuge_layered_halfspace_stress_grid` is faster.
+  !> `fuge_halfspace_stress`. Errors are about 1e-13 of the pressure, otherwise as for
+  !> `fuge_layered_halfspace_stress_grid`. The time grows with the number of points times that of rectangles: on regular
+  !> grids `fuge_layered_halfspace_stress_grid` is faster.
   !>
   !> Errors, `stress` untouched: as for `fuge_halfspace_stress`; FUGE_ERR_CALL_ORDER for a body that is not set;
   !> FUGE_ERR_SIZE for `below`; FUGE_ERR_GRID for a point in a rigid base. Source: doc/theory_layers.md. Fourteen
@@ -47,9 +47,11 @@ contains
     call check_points(px, py, pz, info)
     call check_result(shape(stress), 'stress', 6, size(pz), info)
     call find_layers(body, pz, 'pz', layer, info, below)
+    if (info%failed()) return
     call start_points(layer, 6, which, plain, found, info)
     if (.not. info%failed()) call fuge_halfspace_stress(x, y, width_x, width_y, force, body%poisson(), px(which), &
                                                         py(which), pz(which), plain, info, symmetric_x, symmetric_y)
+    if (info%failed()) return
     call add_layers(body, x, y, width_x, width_y, force, given_symmetry(symmetric_x, symmetric_y), layer, px, py, pz, &
                     found, info)
     if (info%failed()) return
@@ -83,12 +85,14 @@ contains
     call check_points(px, py, pz, info)
     call check_result(shape(displacement), 'displacement', 3, size(pz), info)
     call find_layers(body, pz, 'pz', layer, info, below)
+    if (.not. info%failed()) call check_displacement_range(force, min(minval(width_x), minval(width_y)), &
+                                                           body%least_young(), info)
     if (info%failed()) return
-    call check_displacement_range(force, min(minval(width_x), minval(width_y)), body%young(), info)
     call start_points(layer, 3, which, plain, found, info)
     if (.not. info%failed()) call fuge_halfspace_displacement(x, y, width_x, width_y, force, body%young(), &
                                                               body%poisson(), px(which), py(which), pz(which), plain, &
                                                               info, symmetric_x, symmetric_y)
+    if (info%failed()) return
     call add_layers(body, x, y, width_x, width_y, force, given_symmetry(symmetric_x, symmetric_y), layer, px, py, pz, &
                     found, info)
     if (info%failed()) return
@@ -97,7 +101,8 @@ contains
     do k = 1, size(which)
       found(:, which(k)) = found(:, which(k)) + plain(:, k)
     end do
-    displacement = found
+    call require_finite(found, info)
+    if (.not. info%failed()) displacement = found
   end subroutine fuge_layered_halfspace_displacement
 
   !> Add the stresses (6, points), or twice the shear modulus of the top layer times the displacements (3, points), of

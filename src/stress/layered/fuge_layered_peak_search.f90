@@ -19,8 +19,10 @@ module fuge_layered_peak_search
   !> The ratio of depths; the first one below the surface, in the lesser width of a cell, as in the half-space; the last
   !> one in the substrate, in the extent of the cells with a force.
   real(dp), parameter :: RATIO = 1.3_dp, FIRST_DEPTH = 0.25_dp, LAST_DEPTH = 2.0_dp
-  !> A maximum among these depths may hide one that is larger by so much.
+  !> A maximum among fewer than three depths may hide one that is larger by so much.
   real(dp), parameter :: HIDDEN = 0.05_dp
+  !> A gain of this fraction is none.
+  real(dp), parameter :: SAME = 1.0e-10_dp
   !> Depths that are found at a time, and steps of the search for a maximum between two of them.
   integer, parameter :: PORTION = 4, STEPS = 40
   !> A maximum lies within this fraction of its depth: the value is known to the square of it.
@@ -48,8 +50,8 @@ contains
   !> `body`, `nx`, `ny`, `spacing_x`, `spacing_y`, `force` and `boundary` as for `fuge_layered_halfspace_stress_grid`;
   !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, of all layers, both sides of their
   !> interfaces, the surface, and all depths from a quarter of a cell on: the value to 1e-9 or better of the largest one
-  !> below the centres of cells, whose distance is what limits it. Where the pressure grows towards the edge of a flat
-  !> punch it is that of the grid.
+  !> below the centres of cells, whose distance is what limits it; to 1e-4 where cells at other depths come as close to
+  !> it. Where the pressure grows towards the edge of a flat punch it is that of the grid.
   !>
   !> Ten arguments: the grid alone has four. Errors, `peak` untouched: those of `fuge_layered_halfspace_stress_grid`;
   !> FUGE_ERR_OPTION for `measure`; FUGE_ERR_OVERFLOW if no stress is finite.
@@ -175,19 +177,26 @@ contains
     extent = maxval((high - low + 1)*grid%spacing, mask=grid%cells > 1 .or. [.true., .not. grid%is_line])
   end function extent_of
 
-  !> How many depths are tried between the sides of a layer, these included.
+  !> How many depths are tried between the sides of a layer, these included: at least three, but none between the
+  !> surface and the first depth.
   pure function number_of_depths(grid, top, bottom) result(count)
     type(layered_grid), intent(in) :: grid
     real(dp), intent(in) :: top, bottom
     integer :: count
     real(dp) :: first
 
-    first = max(top, FIRST_DEPTH*minval(grid%spacing))
-    count = 2
-    if (bottom > first) count = 2 + int(log(bottom/first)/log(RATIO))
-    if (bottom > first .and. .not. top > 0.0_dp) count = count + 1
+    first = shallowest(grid)
+    count = 3
+    if (top >= first) then
+      count = max(3, 2 + int(log(bottom/top)/log(RATIO)))
+    else if (bottom > first) then
+      count = 3 + int(log(bottom/first)/log(RATIO))
+    else if (.not. top > 0.0_dp) then
+      count = 2
+    end if
   end function number_of_depths
 
+  !> Place them: at equal ratios from the first depth on.
   pure subroutine place_depths(grid, top, bottom, at)
     type(layered_grid), intent(in) :: grid
     real(dp), intent(in) :: top, bottom
@@ -195,14 +204,24 @@ contains
     real(dp) :: first
     integer :: k, start
 
-    first = max(top, FIRST_DEPTH*minval(grid%spacing))
-    at(1)%depth = top
-    at(size(at))%depth = bottom
+    first = max(top, shallowest(grid))
     start = merge(1, 2, top >= first)
+    ! A layer above the first depth has one in its middle.
+    if (bottom <= first) first = 0.5_dp*(top + bottom)
+    at(1)%depth = top
     do k = 2, size(at) - 1
       at(k)%depth = first*(bottom/first)**(real(k - start, dp)/real(size(at) - start, dp))
     end do
+    at(size(at))%depth = bottom
   end subroutine place_depths
+
+  !> The first depth below the surface.
+  pure function shallowest(grid) result(depth)
+    type(layered_grid), intent(in) :: grid
+    real(dp) :: depth
+
+    depth = FIRST_DEPTH*minval(grid%spacing)
+  end function shallowest
 
   !> Find the largest values at the depths, in their layers; -1 where none is finite.
   subroutine evaluate(grid, measure, at, info)
@@ -234,25 +253,74 @@ contains
     end do
   end subroutine evaluate
 
-  !> Search between the neighbours of depth `k` if it is a maximum that may be as large as the `best`.
+  !> Search between the neighbours of depth `k` if it is a maximum that may be larger than the `best`.
   subroutine refine(grid, measure, at, k, best, info)
     type(layered_grid), intent(in) :: grid
     integer, intent(in) :: measure, k
     type(fuge_layer_peak), intent(in) :: at(:)
     type(fuge_layer_peak), intent(inout) :: best
     type(fuge_info), intent(inout) :: info
-    integer :: lower, upper
+    integer :: first, last, window(2)
 
-    if (info%failed() .or. at(k)%value < (1.0_dp - HIDDEN)*best%value) return
     ! Between the surface and the next depth the cells resolve nothing.
-    if (.not. at(k)%depth > 0.0_dp) return
-    upper = max(k - 1, 1)
-    lower = min(k + 1, size(at))
-    if (at(upper)%layer /= at(k)%layer .or. .not. at(upper)%depth > 0.0_dp) upper = k
-    if (at(lower)%layer /= at(k)%layer) lower = k
-    if (at(upper)%value > at(k)%value .or. at(lower)%value > at(k)%value) return
-    call climb(grid, measure, at(upper)%depth, at(lower)%depth, at(k), best, info)
+    if (info%failed() .or. .not. at(k)%depth > 0.0_dp) return
+    window = depths_around(at, k)
+    first = max(window(1), k - 1)
+    last = min(window(2), k + 1)
+    if (any(at(first:last)%value > at(k)%value)) return
+    if (promise(at(window(1):window(2)), at(k)%value) > (1.0_dp + SAME)*best%value) &
+      call climb(grid, measure, at(first)%depth, at(last)%depth, at(k), best, info)
   end subroutine refine
+
+  !> The first and the last of three depths of the layer of depth `k`, that one in the middle if it is not at a side of
+  !> the layer; of fewer if it has no more.
+  pure function depths_around(at, k) result(window)
+    type(fuge_layer_peak), intent(in) :: at(:)
+    integer, intent(in) :: k
+    integer :: window(2)
+
+    window = k
+    if (is_beside(k - 1)) window(1) = k - 1
+    if (is_beside(k + 1)) window(2) = k + 1
+    if (window(2) - window(1) == 2) return
+    if (is_beside(window(1) - 1)) then
+      window(1) = window(1) - 1
+    else if (is_beside(window(2) + 1)) then
+      window(2) = window(2) + 1
+    end if
+
+  contains
+
+    pure function is_beside(j)
+      integer, intent(in) :: j
+      logical :: is_beside
+
+      is_beside = j >= 1 .and. j <= size(at)
+      if (is_beside) is_beside = at(j)%layer == at(k)%layer .and. at(j)%depth > 0.0_dp
+    end function is_beside
+
+  end function depths_around
+
+  !> How large the maximum between these depths may be, of which the largest `value` is known: by the parabola through
+  !> three of them, and as much again.
+  pure function promise(at, value)
+    type(fuge_layer_peak), intent(in) :: at(:)
+    real(dp), intent(in) :: value
+    real(dp) :: promise
+    real(dp) :: curvature, slope(2), x(3)
+
+    promise = (1.0_dp + HIDDEN)*value
+    if (size(at) < 3) return
+    x = at%depth
+    slope = (at(2:)%value - at(:2)%value)/(x(2:) - x(:2))
+    curvature = (slope(2) - slope(1))/(x(3) - x(1))
+    promise = value
+    if (.not. curvature < 0.0_dp) return
+    ! The slope at the first depth, at the last one, and the height of the vertex above the second one.
+    if (slope(1) - curvature*(x(2) - x(1)) <= 0.0_dp .or. slope(2) + curvature*(x(3) - x(2)) >= 0.0_dp) return
+    promise = value + 2.0_dp*max(0.0_dp, at(2)%value - value &
+                                         - 0.25_dp*(slope(1) + curvature*(x(2) - x(1)))**2/curvature)
+  end function promise
 
   !> The maximum between the depths `upper` and `lower` by R. P. Brent's method (Algorithms for Minimization without
   !> Derivatives, 1973, chapter 5), from `start` between them.
