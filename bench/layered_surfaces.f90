@@ -49,7 +49,7 @@ contains
     do j = 1, size(RATIOS)
       do k = 1, size(THICKNESSES)
         call set_film(RATIOS(j), THICKNESSES(k), body)
-        write (*, '(a,g0.4,a,g0.4)', advance='no') '| ', RATIOS(j), ' | ', THICKNESSES(k)
+        write (*, '(a,f8.3,a,f5.3)', advance='no') '| ', RATIOS(j), ' | ', THICKNESSES(k)
         call print_products(surface, body, bare)
       end do
     end do
@@ -73,7 +73,7 @@ contains
 
     do k = 1, 2
       count = products(surface(k), body)
-      write (*, '(a,f0.2)', advance='no') ' | '//whole(count)//' | ', real(count, dp)/real(bare(k), dp)
+      write (*, '(a,f4.2)', advance='no') ' | '//whole(count)//' | ', real(count, dp)/real(bare(k), dp)
     end do
     write (*, '(a)') ' |'
   end subroutine print_products
@@ -126,7 +126,7 @@ contains
       '| --- | ---: | ---: | ---: |'
     do k = 1, size(BOUNDARIES)
       time = [time_of_kernels(cells, BOUNDARIES(k), bare), time_of_kernels(cells, BOUNDARIES(k), film)]
-      write (*, '(a,2(f0.1,a),f0.2,a)') '| '//trim(NAMES(k))//' | ', 1.0e3_dp*time(1), ' ms | ', 1.0e3_dp*time(2), &
+      write (*, '(a,2(f0.1,a),f4.2,a)') '| '//trim(NAMES(k))//' | ', 1.0e3_dp*time(1), ' ms | ', 1.0e3_dp*time(2), &
         ' ms | ', time(2)/time(1), ' |'
     end do
   end subroutine print_times
