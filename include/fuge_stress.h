@@ -174,14 +174,15 @@ int fuge_halfspace_displacement_grid(int nx, int ny, double spacing_x, double sp
  * In a body of layers (fuge_layers.h, whose arguments layers .. bonded come first), below the
  * centres of the cells of a grid: in the body that these describe, not in the other one.  Other
  * arguments and errors are those of the sections above, without the moduli of one body.
- *   below   in   depths, or NULL: a depth at an interface is above it, or below it unless 0.
- *                Stresses along the surface differ on both sides, and where layers slide also
- *                displacements along it
+ *   below   in   depths, or NULL for all 0.  At an interface, 0: just above it, otherwise just
+ *                below it.  Stresses along the surface differ on the two sides and, where layers
+ *                slide, so do displacements along it
  * With FUGE_PERIODIC the mean pressure gives the half-space below the layers no stress along the
- * surface, and the layers the same strain as it has; on a rigid base none, but layers that slide
- * have no stress along it.  Displacements count from the mean at each depth, on a rigid base from
- * the base, as those of the operator.  FUGE_ERR_GRID also for a depth in
- * a rigid base, FUGE_ERR_ELEMENT for FUGE_HAT; other errors of the layers as in fuge_layers.h. */
+ * surface, and the layers the same strain as it has.  On a rigid base layers have no strain along
+ * the surface, and those that slide on it no resultant force along it: both are the limit of long
+ * waves in one direction.  Displacements count from the mean at each depth, on a rigid base from
+ * the base, as those of the operator.  FUGE_ERR_GRID also for a depth in a rigid base,
+ * FUGE_ERR_ELEMENT for FUGE_HAT; other errors of the layers as in fuge_layers.h. */
 
 int fuge_layered_halfplane_stress_grid(int layers, const double *thickness, const double *young,
                                        const double *poisson, int bonded, int n, double spacing,
@@ -213,8 +214,9 @@ int fuge_layered_halfspace_displacement_grid(int layers, const double *thickness
 /* The same at points, below any strips or rectangles.
  *   x, width .. points, px, pz  in  as in fuge_halfplane_stress and fuge_halfspace_stress
  *   below                       in  points, or NULL: as above
- * The datum along z is that of fuge_layered_halfplane_matrix.  Each point takes time for each
- * cell: on grids the functions above are faster. */
+ * In plane strain the datum along z is that of fuge_layered_halfplane_matrix; on an area
+ * displacements vanish far away.  The time grows with points times cells: on grids the functions
+ * above are faster. */
 int fuge_layered_halfplane_stress(int layers, const double *thickness, const double *young,
                                   const double *poisson, int bonded, int n, const double *x,
                                   const double *width, const double *force, int element,
@@ -248,11 +250,11 @@ int fuge_layered_halfspace_displacement(int layers, const double *thickness, con
 
 /* The largest von Mises or Tresca stress in a body of layers. */
 typedef struct fuge_layer_peak {
-  double value;                 /* force per length^2; 0 without forces */
+  double value;                 /* force per length^2; 0, as depth and tensor, without forces */
   double depth;                 /* length */
   double tensor[6];             /* xx, yy, zz, yz, xz, xy there */
-  int layer;                    /* 0 is the top layer, the number of layers the substrate; layers
-                                   that are bonded to the same material are one with it */
+  int layer;                    /* 0 is the top layer, the last number the substrate; layers that
+                                   are bonded to the same material are one with it */
   int cell;                     /* the cell above */
 } fuge_layer_peak;
 

@@ -66,7 +66,7 @@ Stresses and displacements in the bodies
     layered_halfplane_displacement, layered_halfspace_displacement
     layered_halfplane_stress_grid, layered_halfspace_stress_grid        below grids
     layered_halfplane_displacement_grid, layered_halfspace_displacement_grid
-    layered_halfplane_interfaces, layered_halfspace_interfaces          what coatings fail by: InterfaceStress
+    layered_halfplane_interfaces, layered_halfspace_interfaces          what cracks coatings: InterfaceStress
     layered_halfplane_peak, layered_halfspace_peak                      the largest stress: LayerPeak
     halfplane_tensor, round_tensor                                      all components
     von_mises, tresca, mean_stress, principal_stresses                  of tensors

@@ -78,6 +78,15 @@ def array(name: str, value: ArrayLike) -> NDArray[Any]:
     return np.asarray(value)
 
 
+def flags(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Ints:
+    """Truth values, broadcast to a shape."""
+    found = array(name, value).astype(bool)
+    try:
+        return np.ascontiguousarray(np.broadcast_to(found, shape), dtype=np.intc)
+    except ValueError:
+        raise error(Status.ERR_SIZE, f"{name} has the shape {found.shape}, but must fit {shape}") from None
+
+
 def _real(name: str, value: ArrayLike) -> NDArray[Any]:
     found = array(name, value)
     if found.dtype.kind not in "iuf":

@@ -26,7 +26,7 @@ def _at_points(
     *coordinates: tuple[str, ArrayLike],
 ) -> NDArray[np.float64]:
     shape, flat = _arrays.points(*coordinates)
-    sides = np.ascontiguousarray(np.broadcast_to(np.asarray(below, dtype=bool), shape), dtype=np.intc)
+    sides = _arrays.flags("below", below, shape)
     result = np.empty((*shape, components))
     shapes = dict.fromkeys([coordinate for coordinate, _ in coordinates] + ["point"], shape)
     call(name, *layers.arguments()[:-1], *arguments, flat[0].size, *flat, sides, result, shapes=shapes)
@@ -56,7 +56,7 @@ def layered_halfplane_stress(
     element : {'mean', 'centre'}
         Strips of pressure.
     below : bool or array_like
-        A point at an interface is above it, or below. There xx differs.
+        At an interface: False, just above it; True, just below it. There xx differs.
 
     Returns
     -------
@@ -81,7 +81,8 @@ def layered_halfplane_displacement(
 ) -> NDArray[np.float64]:
     """Displacements at points of a body of layers, in plane strain, shape (.., 2): along x and z; length.
 
-    Parameters are those of :func:`layered_halfplane_stress`. The datum is that of :func:`layered_halfplane_matrix`.
+    Parameters are those of :func:`layered_halfplane_stress`. The datum is that of
+    :meth:`Layers.halfplane_matrix` with a rigid other body.
     """
     arguments = [*strips(x, width, force, element), int(bool(symmetric))]
     return _at_points("fuge_layered_halfplane_displacement", layers, arguments, 2, below, ("px", px), ("pz", pz))
@@ -111,7 +112,7 @@ def layered_halfspace_stress(
     x, y, width_x, width_y, force, px, py, pz, symmetric_x, symmetric_y
         As in :func:`halfspace_stress`.
     below : bool or array_like
-        A point at an interface is above it, or below. There xx, yy and xy differ.
+        At an interface: False, just above it; True, just below it. There xx, yy and xy differ.
 
     Returns
     -------

@@ -1,8 +1,9 @@
 """Stresses and displacements in bodies of layers, below the centres of equal cells side by side, by FFT.
 
 With 'periodic' the mean pressure gives the half-space below the layers no stress along the surface, and the layers the
-same strain as it has; on a rigid base none, but layers that slide have no stress along it. Displacements count from the
-mean at each depth, on a rigid base from the base, as those of the operator.
+same strain as it has. On a rigid base layers have no strain along the surface, and those that slide on it no resultant
+force along it: both are the limit of long waves in one direction. Displacements count from the mean at each depth, on a
+rigid base from the base, as those of the operator.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ class InterfaceStress:
     cell_of_opening: tuple[int, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LayerPeak:
     """The largest von Mises or Tresca stress in a body of layers.
 
@@ -87,7 +88,7 @@ def _at_depths(
     components: int,
 ) -> NDArray[np.float64]:
     depths = _arrays.vector("depth", np.atleast_1d(_arrays.array("depth", depth)))
-    sides = np.ascontiguousarray(np.broadcast_to(np.asarray(below, dtype=bool), depths.shape), dtype=np.intc)
+    sides = _arrays.flags("below", below, depths.shape)
     result = np.empty((depths.size, *grid, components))
     body = layers.arguments()[:-1]
     call(name, *body, *arguments, depths.size, depths, sides, result, shapes={"force": grid})
@@ -115,7 +116,7 @@ def layered_halfplane_stress_grid(
     element : {'mean', 'centre'}
         Strips of pressure.
     below : bool or array_like, shape (d,)
-        A depth at an interface is above it, or below. There xx differs.
+        At an interface: False, just above it; True, just below it. There xx differs.
 
     Returns
     -------
@@ -164,7 +165,7 @@ def layered_halfspace_stress_grid(
     spacing_x, spacing_y, force, depth, boundary
         As in :func:`halfspace_stress_grid`.
     below : bool or array_like, shape (d,)
-        A depth at an interface is above it, or below. There xx, yy and xy differ.
+        At an interface: False, just above it; True, just below it. There xx, yy and xy differ.
 
     Returns
     -------

@@ -1,14 +1,12 @@
 !> From which thickness on a coating is felt, and from which on the body below it is not.
 module fuge_coating_thickness
-  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan, ieee_positive_inf, ieee_value
-  use fuge_constants, only: LARGEST_EXPONENT_OF_4
-  use fuge_effective_modulus, only: punch_factor
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan, ieee_positive_inf, ieee_value
+  use fuge_effective_modulus, only: check_radius, punch_factor
   use fuge_kinds, only: dp
   use fuge_layer_stack, only: bond_layers, layer_stack
   use fuge_layered_body_type, only: check_layers
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, &
-    FUGE_ERR_WIDTH
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION
   implicit none
   private
 
@@ -37,7 +35,7 @@ contains
   !> the thickness, where it first exceeds the share.
   !>
   !> Errors, thin and thick untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for the radius,
-  !> FUGE_ERR_MODULUS, FUGE_ERR_OPTION for the share, FUGE_ERR_OVERFLOW.
+  !> FUGE_ERR_MODULUS, FUGE_ERR_OPTION for the share, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
   subroutine fuge_find_coating_limits(young, poisson, radius, share, thin, thick, info)
     real(dp), intent(in) :: young(:), poisson(:), radius, share
     real(dp), intent(inout) :: thin, thick
@@ -48,13 +46,9 @@ contains
 
     call check_layers([1.0_dp], young, poisson, info)
     if (info%failed()) return
-    if (.not. ieee_is_finite(radius)) then
-      call report(info, FUGE_ERR_NOT_FINITE, 'radius = '//text(radius)//' is not a finite number')
-    else if (.not. radius > 0.0_dp) then
-      call report(info, FUGE_ERR_WIDTH, 'radius = '//text(radius)//' is not positive')
-    else if (abs(exponent(radius)) > LARGEST_EXPONENT_OF_4) then
-      call report(info, FUGE_ERR_OVERFLOW, 'radius = '//text(radius)//' is out of range: choose another unit of length')
-    else if (ieee_is_nan(share)) then
+    call check_radius(radius, 'radius', info)
+    if (info%failed()) return
+    if (ieee_is_nan(share)) then
       call report(info, FUGE_ERR_NOT_FINITE, 'share is not a number')
     else if (share < LEAST_SHARE .or. share > LARGEST_SHARE) then
       call report(info, FUGE_ERR_OPTION, 'share = '//text(share)//' is not in '//text(LEAST_SHARE)//' .. ' &

@@ -12,7 +12,7 @@ module fuge_effective_modulus
   implicit none
   private
 
-  public :: fuge_find_effective_modulus, punch_factor
+  public :: check_radius, fuge_find_effective_modulus, punch_factor
 
   !> Functions of which the pressure under the punch is made; the first one alone has a resultant.
   integer, parameter :: FUNCTIONS = 8
@@ -79,7 +79,7 @@ contains
     end do
   end subroutine fuge_find_effective_modulus
 
-  !> Refuse a radius.
+  !> Refuse a radius of this `name`: FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_OVERFLOW.
   subroutine check_radius(radius, name, info)
     real(dp), intent(in) :: radius
     character(len=*), intent(in) :: name

@@ -11,7 +11,7 @@
 module fuge_layer_interior
   use fuge_kinds, only: dp
   use fuge_layer_matrices, only: carried_down, joined, layer_matrices, slid_down
-  use fuge_layer_stack, only: layer_number, layer_stack
+  use fuge_layer_stack, only: copy_stack, layer_number, layer_stack
   implicit none
   private
 
@@ -104,43 +104,41 @@ contains
     if (is_at(depth, top)) then
       cut%above = k - 1
       cut%below = k > 1
-      call copy_layers(stack, 0, cut%stack, stat)
+      call copy_stack(stack, cut%stack, stat)
     else if (k <= layers .and. is_at(depth, bottom)) then
-      call copy_layers(stack, 0, cut%stack, stat)
+      call copy_stack(stack, cut%stack, stat)
     else
-      call copy_layers(stack, k, cut%stack, stat)
+      call split_layer(stack, k, cut%stack, stat)
       if (stat /= 0) return
       cut%stack%thickness(k) = depth - top
       if (k <= layers) cut%stack%thickness(k + 1) = bottom - depth
     end if
   end subroutine find_cut
 
-  !> `copy`: the layers of `stack`, of which number `twice`, or the half-space below, becomes two that are bonded; 0 is
-  !> none. The thickness of the upper one is not defined if it is part of the half-space. `stat` as in an allocate
+  !> `split`: the layers of `stack`, of which that of the `number`, or the half-space below, becomes two that are
+  !> bonded. The thickness of the upper one is not defined if it is part of the half-space. `stat` as in an allocate
   !> statement.
-  pure subroutine copy_layers(stack, twice, copy, stat)
+  pure subroutine split_layer(stack, number, split, stat)
     type(layer_stack), intent(in) :: stack
-    integer, intent(in) :: twice
-    type(layer_stack), intent(inout) :: copy
+    integer, intent(in) :: number
+    type(layer_stack), intent(inout) :: split
     integer, intent(out) :: stat
-    integer :: from, k, layers, more
+    integer :: from, k, layers
 
     layers = size(stack%thickness)
-    more = merge(1, 0, twice > 0)
-    call copy%make_room(layers + more, stat)
+    call split%make_room(layers + 1, stat)
     if (stat /= 0) return
-    do k = 1, layers + more + 1
+    do k = 1, layers + 2
       from = k
-      if (twice > 0 .and. k > twice) from = k - 1
-      copy%shear(k) = stack%shear(from)
-      copy%poisson(k) = stack%poisson(from)
-      if (k > layers + more) exit
-      if (from > layers) cycle
-      copy%thickness(k) = stack%thickness(from)
-      copy%bonded(k) = stack%bonded(from)
+      if (k > number) from = k - 1
+      split%shear(k) = stack%shear(from)
+      split%poisson(k) = stack%poisson(from)
+      if (k > layers + 1 .or. from > layers) cycle
+      split%thickness(k) = stack%thickness(from)
+      split%bonded(k) = stack%bonded(from)
     end do
-    if (twice > 0) copy%bonded(twice) = .true.
-  end subroutine copy_layers
+    split%bonded(number) = .true.
+  end subroutine split_layer
 
   !> Is the `depth` that of an `interface`, which is a sum of thicknesses?
   pure function is_at(depth, interface)

@@ -1,4 +1,4 @@
-!> The waves of a body of elastic layers: how much more or less than a half-space of its top layer it yields.
+!> The waves of a body of elastic layers: its compliance relative to that of a half-space of its top layer.
 module fuge_layer_stack
   use fuge_kinds, only: dp
   use fuge_layer_matrices, only: half_space_compliance, joined, layer_matrices, layer_of, rest_on, slide_on
@@ -6,7 +6,7 @@ module fuge_layer_stack
   implicit none
   private
 
-  public :: bond_layers, layer_number
+  public :: bond_layers, copy_stack, layer_number
 
   !> Layers on a half-space or a rigid base, from the surface down.
   type, extends(wave_symbol), public :: layer_stack
@@ -51,6 +51,22 @@ contains
     stack%poisson = poisson
     stack%shear = young/young(1)*(1.0_dp + poisson(1))/(1.0_dp + poisson)
   end subroutine bond_layers
+
+  !> `copy`: the layers of `stack`, which may not be set. `stat` as in an allocate statement.
+  pure subroutine copy_stack(stack, copy, stat)
+    type(layer_stack), intent(in) :: stack
+    type(layer_stack), intent(inout) :: copy
+    integer, intent(out) :: stat
+
+    stat = 0
+    if (.not. allocated(stack%thickness)) return
+    call copy%make_room(size(stack%thickness), stat)
+    if (stat /= 0) return
+    copy%thickness = stack%thickness
+    copy%bonded = stack%bonded
+    copy%poisson = stack%poisson
+    copy%shear = stack%shear
+  end subroutine copy_stack
 
   !> Is it more than a half-space?
   elemental function has_layers(self) result(has)

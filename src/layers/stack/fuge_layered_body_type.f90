@@ -3,7 +3,7 @@ module fuge_layered_body_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_is_nan
   use fuge_constants, only: LARGEST_EXPONENT_OF_4
   use fuge_kinds, only: dp
-  use fuge_layer_stack, only: layer_stack
+  use fuge_layer_stack, only: copy_stack, layer_stack
   use fuge_mixture_fit, only: fit_mixture, wave_symbol
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_MODULUS, &
@@ -33,7 +33,6 @@ module fuge_layered_body_type
     !> 1/e_star = (1 - nu^2)/E of the two top layers, added up.
     real(dp) :: modulus = 0.0_dp
     type(wave_mixture) :: mixture
-    real(dp) :: error = 0.0_dp
   contains
     procedure :: set
     procedure :: e_star
@@ -64,9 +63,10 @@ contains
   !> to 0.5, both (layers + 1): the last ones are those of the half-space below the layers; its modulus may be infinite,
   !> a rigid base. `bonded` (layers, default .true.): is the bottom of each layer bonded? Otherwise it slides without
   !> friction, and never comes off. `e_star_other`: E/(1 - nu**2) of the other body, a half-space; infinite, the
-  !> default, if it is rigid. `other`: the other body if it has layers; it comes with no third one. Seven arguments are
-  !> of one body each or named by the caller. Errors, which leave the description as it was: FUGE_ERR_SIZE,
-  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  !> default, if it is rigid. `other`: the other body if it has layers; it comes with no third one. If both are passed,
+  !> `other` counts. Errors, which leave the description as it was: FUGE_ERR_SIZE,
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_OVERFLOW, FUGE_ERR_CALL_ORDER for `other`
+  !> that is not set, FUGE_ERR_MEMORY.
   subroutine set(self, thickness, young, poisson, info, bonded, e_star_other, other)
     class(fuge_layered_body), intent(inout) :: self
     real(dp), intent(in) :: thickness(:), young(:), poisson(:)
@@ -117,8 +117,10 @@ contains
     call move_stack(new%second, self%second)
     self%share = new%share
     self%modulus = new%modulus
-    self%mixture = new%mixture
-    self%error = new%error
+    self%mixture%unit = new%mixture%unit
+    self%mixture%limit = new%mixture%limit
+    self%mixture%tail = new%mixture%tail
+    call move_alloc(new%mixture%weight, self%mixture%weight)
   end subroutine set
 
   !> Is it so large or small that products would overflow? Not if it is infinite.
@@ -254,22 +256,6 @@ contains
 
   end subroutine join_layers
 
-  !> `copy`: the layers of `stack`, which may not be set. `stat` as in an allocate statement.
-  pure subroutine copy_stack(stack, copy, stat)
-    type(layer_stack), intent(in) :: stack
-    type(layer_stack), intent(inout) :: copy
-    integer, intent(out) :: stat
-
-    stat = 0
-    if (.not. allocated(stack%thickness)) return
-    call copy%make_room(size(stack%thickness), stat)
-    if (stat /= 0) return
-    copy%thickness = stack%thickness
-    copy%bonded = stack%bonded
-    copy%poisson = stack%poisson
-    copy%shear = stack%shear
-  end subroutine copy_stack
-
   !> Without a copy, for which there may be no memory.
   pure subroutine move_stack(from, to)
     type(layer_stack), intent(inout) :: from, to
@@ -293,7 +279,7 @@ contains
     limit = 0.0_dp
     call include_stack(layers%first, layers%share(1))
     call include_stack(layers%second, layers%share(2))
-    if (longest > 0.0_dp) call fit_mixture(symbol, shortest, longest, limit, layers%mixture, layers%error, info)
+    if (longest > 0.0_dp) call fit_mixture(symbol, shortest, longest, limit, layers%mixture, info)
 
   contains
 

@@ -46,19 +46,19 @@ contains
 
   !> Fit `mixture` to the waves of `body`.
   !>
-  !> T is 1 for waves shorter than `shortest`, and `limit` for those far longer than `longest`, lengths. `error`: the
-  !> largest error of T at waves between those of the fit, relative to T. Error: FUGE_ERR_MEMORY.
-  subroutine fit_mixture(body, shortest, longest, limit, mixture, error, info)
+  !> T is 1 for waves shorter than `shortest`, and `limit` for those far longer than `longest`, lengths. `error`, if it
+  !> is wanted: the largest one of T at waves between those of the fit, relative to T. Error: FUGE_ERR_MEMORY.
+  subroutine fit_mixture(body, shortest, longest, limit, mixture, info, error)
     class(wave_symbol), intent(in) :: body
     real(dp), intent(in) :: shortest, longest, limit
     type(wave_mixture), intent(out) :: mixture
-    real(dp), intent(out) :: error
     type(fuge_info), intent(inout) :: info
+    real(dp), intent(out), optional :: error
     real(dp), allocatable :: matrix(:, :), right(:)
     real(dp) :: from, ratio
     integer :: count, middle, rows, stat
 
-    error = 0.0_dp
+    if (present(error)) error = 0.0_dp
     count = max(2, ceiling(log(longest/(FIRST*shortest))/STEP))
     middle = count/2
     rows = WAVES*count
@@ -77,7 +77,7 @@ contains
     if (info%failed()) return
     mixture%weight = mixture%weight + right(:count)
     if (limit > 0.0_dp) mixture%tail = right(count + 1)
-    error = largest_error(body, mixture, from*sqrt(ratio), ratio, rows - 1)
+    if (present(error)) error = largest_error(body, mixture, from*sqrt(ratio), ratio, rows - 1)
   end subroutine fit_mixture
 
   !> One equation for each wave: what the weights have to add to the T of `mixture`, over T.

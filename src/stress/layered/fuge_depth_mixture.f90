@@ -15,7 +15,7 @@ module fuge_depth_mixture
   implicit none
   private
 
-  public :: fit_at_depths, uniform_stress, yield_below
+  public :: fit_at_depths, uniform_stress, mean_displacement
 
   !> Step of the rule in log t.
   real(dp), parameter, public :: STEP = 0.09_dp
@@ -25,12 +25,13 @@ module fuge_depth_mixture
   integer, parameter, public :: POWERS(FUNCTIONS) = [0, 0, 0, 1, 1, 2, 2]
   !> The first and the last of the functions with m = 0, 1, 2.
   integer, parameter :: FIRST_OF(0:2) = [1, 4, 6], LAST_OF(0:2) = [3, 5, 7]
-  !> The first t is this fraction of the depth from which waves come; from that many times its inverse on, q counts not.
+  !> The shortest t is this fraction of the least distance from the depth to the surface, or in the top layer to the
+  !> image of the surface in the first interface. Waves of q above SHORTEST_WAVE over that distance are negligible.
   real(dp), parameter :: FIRST_LENGTH = 1.0_dp/14.0_dp, SHORTEST_WAVE = 40.0_dp
-  !> Waves are long from this many times the depth, or the thickness of all layers times the ratio of moduli, on. The
-  !> longest one has this q times the longest t.
+  !> The longest t is LONG times the depth, or times the thickness of all layers times the ratio of their moduli,
+  !> whichever is greater. The longest wave has LONGEST_WAVE over it as q.
   real(dp), parameter :: LONG = 1.0e3_dp, LONGEST_WAVE = 0.03_dp
-  !> q of a wave that is as good as infinitely long, times the length of the layers.
+  !> Waves of this q times `length_of_layers` count as infinitely long.
   real(dp), parameter :: LONGEST = 1.0e-7_dp
   !> Waves for each weight, and unknowns that stand for all longer t.
   integer, parameter :: WAVES = 3, BEYOND = 3
@@ -40,8 +41,9 @@ module fuge_depth_mixture
   real(dp), parameter :: NEGLIGIBLE = 6.3_dp
 
   type, public :: depth_mixture
-    !> The weights are those of k = first, first + 1, .. (weights, functions).
-    integer :: first = 0
+    !> The weights are those of k = first, first + 1, .., so many as `count`; there may be room for more (weights,
+    !> functions).
+    integer :: first = 0, count = 0
     real(dp), allocatable :: weight(:, :)
     !> Those of longer t are beyond(1) + beyond(2)*r**a + beyond(3)*r**(a + 2), r = t_last/t, with a = 2 if m is 1,
     !> otherwise 1; (BEYOND, functions).
@@ -60,15 +62,14 @@ contains
     integer, intent(in) :: function, k
     real(dp) :: weight
     real(dp) :: ratio
-    integer :: a, count
+    integer :: a
 
-    count = size(self%weight, 1)
     weight = 0.0_dp
     if (k < self%first) return
-    if (k < self%first + count) then
+    if (k < self%first + self%count) then
       weight = self%weight(k - self%first + 1, function)
     else
-      ratio = exp(-STEP*real(k - self%first - count + 1, dp))
+      ratio = exp(-STEP*real(k - self%first - self%count + 1, dp))
       a = 1 + mod(POWERS(function), 2)
       weight = self%beyond(1, function) + self%beyond(2, function)*ratio**a + self%beyond(3, function)*ratio**(a + 2)
     end if
@@ -84,7 +85,7 @@ contains
     real(dp) :: coefficient(BEYOND)
     integer :: decay(BEYOND), j, last, next
 
-    last = self%first + size(self%weight, 1) - 1
+    last = self%first + self%count - 1
     total = 0.0_dp
     do j = k, last
       total = total + (self%weight_of(function, j) - limit)*exp(real(power, dp)*(STEP*real(j, dp) - log_of_unit))
@@ -181,6 +182,7 @@ contains
     allocate (mixture%weight(count, FUNCTIONS), stat=stat)
     if (stat /= 0) return
     mixture%first = first
+    mixture%count = count
     mixture%weight = weights(:count, :)
     mixture%beyond = weights(count + 1:, :)
   end subroutine set_weights
@@ -322,8 +324,9 @@ contains
   end function value_at
 
   !> xx = yy and zz at the cut under equal pressure everywhere, over the pressure: no stress along the surface in the
-  !> half-space below, and the same strain along it in all layers. On a rigid base those of the longest waves, which do
-  !> not strain layers along the surface, unless they slide and have no stress there. In plane strain xx and zz.
+  !> half-space below, and the same strain along it in all layers. On a rigid base those of the longest waves in one
+  !> direction: no strain along the surface, or no resultant force along it if the layers slide. In plane strain xx and
+  !> zz.
   pure function uniform_stress(cut, plane_strain) result(stress)
     type(layer_cut), intent(in) :: cut
     logical, intent(in) :: plane_strain
@@ -345,15 +348,15 @@ contains
 
   !> How far equal pressure everywhere moves the cut down, over the pressure over twice the shear modulus of the top
   !> layer: on a rigid base as far as the longest waves; otherwise displacements count from the mean.
-  pure function yield_below(cut) result(yield)
+  pure function mean_displacement(cut) result(displacement)
     type(layer_cut), intent(in) :: cut
-    real(dp) :: yield
+    real(dp) :: displacement
     real(dp) :: response(6)
 
-    yield = 0.0_dp
+    displacement = 0.0_dp
     if (.not. cut%stack%is_rigid()) return
     response = cut%response(LONGEST/length_of_layers(cut))
-    yield = response(DOWN)*length_of_layers(cut)/LONGEST
-  end function yield_below
+    displacement = response(DOWN)*length_of_layers(cut)/LONGEST
+  end function mean_displacement
 
 end module fuge_depth_mixture

@@ -1,12 +1,13 @@
 !> Mixtures of Gaussians at many depths of a body of layers: fitted at a few depths of each panel, and interpolated.
 !>
-!> A panel is part of one layer, its lower end at most twice as deep as its upper one. There what a wave gives is an
-!> analytic function of the depth, with singularities at the surface and its images; Chebyshev's interpolation through
-!> NODES depths converges like 6**-NODES (L. N. Trefethen, Approximation Theory and Approximation Practice, 2013,
-!> chapters 5 and 8). The weights are linear in what waves give, so they are what is interpolated.
+!> The top layer is one panel; a deeper layer is divided so that the lower end of a panel is at most twice as deep as
+!> its upper one. There what a wave gives is an analytic function of the depth, with singularities at the surface and
+!> its images; Chebyshev's interpolation through NODES depths converges like 6**-NODES (L. N. Trefethen, Approximation
+!> Theory and Approximation Practice, 2013, chapters 5 and 8). The weights are linear in what waves give, so they are
+!> what is interpolated.
 module fuge_depth_panels
   use fuge_constants, only: PI
-  use fuge_depth_mixture, only: depth_mixture, fit_at_depths
+  use fuge_depth_mixture, only: depth_mixture, fit_at_depths, FUNCTIONS
   use fuge_kinds, only: dp
   use fuge_layer_interior, only: find_cut, is_upper_half, layer_cut
   use fuge_layer_stack, only: layer_stack
@@ -20,13 +21,14 @@ module fuge_depth_panels
   !> Between depths that are closer than this fraction of them linear interpolation is exact, and more nodes would be
   !> the same numbers.
   real(dp), parameter :: CLOSE = 1.0e-9_dp
-  !> The most panels of a layer: depths are numbers.
+  !> The most octaves in a layer: more than a double can hold.
   integer, parameter :: MOST_OCTAVES = 4096
 
   type :: depth_panel
-    !> The layer, and how often its upper side must be doubled to come above the panel.
+    !> The layer; the panel begins at 2**octave times the depth of the layer's top.
     integer :: layer = 0, octave = 0
-    !> The depths asked for: all of them, or the ends and more than NODES between.
+    !> Up to NODES different depths in `node`; with more of them `many` is true, and only the least and the greatest are
+    !> kept until the fit.
     integer :: number = 0
     logical :: many = .false.
     real(dp) :: least = 0.0_dp, greatest = 0.0_dp, node(NODES) = 0.0_dp
@@ -41,6 +43,7 @@ module fuge_depth_panels
   contains
     procedure :: fit
     procedure :: first_length
+    procedure :: make_room
     procedure :: mixture_at
   end type depth_panels
 
@@ -100,7 +103,7 @@ contains
     is_same = .not. abs(a - b) > 0.0_dp
   end function is_same
 
-  !> How often the upper side of the layer can be doubled above the depth.
+  !> The largest k for which 2**k times the depth of the layer's top is not below `depth`; 0 in the top layer.
   pure function octave_of(stack, layer, depth) result(octave)
     type(layer_stack), intent(in) :: stack
     integer, intent(in) :: layer
@@ -195,7 +198,24 @@ contains
     end do
   end function first_length
 
-  !> The mixture at a `depth` of a `layer`, one of those that were fitted.
+  !> Room for the mixture at any of the depths. FUGE_ERR_MEMORY.
+  pure subroutine make_room(self, mixture, info)
+    class(depth_panels), intent(in) :: self
+    type(depth_mixture), intent(inout) :: mixture
+    type(fuge_info), intent(inout) :: info
+    integer :: count, k, stat
+
+    if (info%failed()) return
+    count = 0
+    do k = 1, self%count
+      count = max(count, self%panel(k)%mixture(1)%count)
+    end do
+    if (allocated(mixture%weight)) deallocate (mixture%weight)
+    allocate (mixture%weight(count, FUNCTIONS), stat=stat)
+    call require_memory(stat, 'stresses in layers, with', count, 'weights', info)
+  end subroutine make_room
+
+  !> The mixture at a `depth` of a `layer`, one of those that were fitted, in which there is room for it.
   pure subroutine mixture_at(self, layer, depth, mixture)
     class(depth_panels), intent(in) :: self
     integer, intent(in) :: layer
@@ -206,12 +226,13 @@ contains
 
     associate (panel => self%panel(number_of_panel(self, layer, depth)))
       call find_shares(panel, depth, share(:panel%number))
-      mixture = panel%mixture(1)
-      mixture%weight = 0.0_dp
+      mixture%first = panel%mixture(1)%first
+      mixture%count = panel%mixture(1)%count
+      mixture%weight(:mixture%count, :) = 0.0_dp
       mixture%beyond = 0.0_dp
       do k = 1, panel%number
         if (is_same(share(k), 0.0_dp)) cycle
-        mixture%weight = mixture%weight + share(k)*panel%mixture(k)%weight
+        mixture%weight(:mixture%count, :) = mixture%weight(:mixture%count, :) + share(k)*panel%mixture(k)%weight
         mixture%beyond = mixture%beyond + share(k)*panel%mixture(k)%beyond
       end do
     end associate

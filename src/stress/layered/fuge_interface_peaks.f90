@@ -1,12 +1,12 @@
-!> What coatings fail by: the largest tension and shear at the surface and at each interface of a body of layers, below
-!> the cells of a grid.
+!> The stresses that crack or detach coatings: the largest tension at the surface and on both sides of each interface,
+!> and the largest interfacial shear, below the cells of a grid.
 module fuge_interface_peaks
   use fuge_kinds, only: dp
   use fuge_layer_stack, only: layer_stack
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_layered_grid, only: layered_grid
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
   use fuge_stress_measures, only: fuge_principal_stresses
   implicit none
   private
@@ -43,7 +43,7 @@ contains
   !>
   !> Nine arguments: the grid alone has four. Errors, peaks untouched: as for `fuge_layered_halfspace_stress_grid`.
   subroutine fuge_layered_halfspace_interfaces(body, nx, ny, spacing_x, spacing_y, force, boundary, peaks, info)
-    type(fuge_layered_body), intent(in) :: body
+    type(fuge_layered_body), intent(in), target :: body
     integer, intent(in) :: nx, ny, boundary
     real(dp), intent(in) :: spacing_x, spacing_y, force(:)
     type(fuge_interface_stress), intent(inout) :: peaks(:)
@@ -62,7 +62,7 @@ contains
   !> `fuge_layered_halfspace_interfaces`; a principal stress may be that along the line. Errors, peaks untouched: as for
   !> `fuge_layered_halfplane_stress_grid`.
   subroutine fuge_layered_halfplane_interfaces(body, spacing, force, element, boundary, peaks, info)
-    type(fuge_layered_body), intent(in) :: body
+    type(fuge_layered_body), intent(in), target :: body
     real(dp), intent(in) :: spacing, force(:)
     integer, intent(in) :: element, boundary
     type(fuge_interface_stress), intent(inout) :: peaks(:)
@@ -79,7 +79,7 @@ contains
 
   subroutine find_interfaces(grid, body, force, peaks, info)
     type(layered_grid), intent(inout) :: grid
-    type(fuge_layered_body), intent(in) :: body
+    type(fuge_layered_body), intent(in), target :: body
     real(dp), intent(in) :: force(:)
     type(fuge_interface_stress), intent(inout) :: peaks(:)
     type(fuge_info), intent(inout) :: info
@@ -122,8 +122,8 @@ contains
     end if
   end subroutine check_peaks
 
-  !> On how many sides of `interface` 0, 1, .. from the surface down there is a layer or a half-space that yields: 1 at
-  !> the surface and at a rigid base.
+  !> How many sides of `interface` 0, 1, .. (0 is the surface) are elastic: 1 at the surface and at a rigid base,
+  !> otherwise 2.
   pure function sides_of(stack, interface) result(sides)
     type(layer_stack), intent(in) :: stack
     integer, intent(in) :: interface
@@ -134,7 +134,7 @@ contains
   end function sides_of
 
   !> Take the largest values of `tensor` (6, cells), on `side` 1 or 2. `principal` (3, cells) is work space.
-  !> FUGE_ERR_MEMORY.
+  !> FUGE_ERR_OVERFLOW.
   subroutine take_side(tensor, side, principal, peak, info)
     real(dp), intent(in) :: tensor(:, :)
     integer, intent(in) :: side
@@ -143,6 +143,8 @@ contains
     type(fuge_info), intent(inout) :: info
 
     call fuge_principal_stresses(tensor, principal, info)
+    if (.not. (info%failed() .or. all(abs(principal) <= huge(1.0_dp)))) &
+      call report(info, FUGE_ERR_OVERFLOW, 'stresses are out of range: choose another unit of force')
     if (info%failed()) return
     if (side == 1) then
       peak%cell_above = maxloc(principal(1, :), dim=1)

@@ -1,17 +1,18 @@
 !> A body of layers at the depths that the caller asks for.
 module fuge_layer_checks
-  use fuge_depth_mixture, only: uniform_stress, yield_below
+  use fuge_depth_mixture, only: uniform_stress, mean_displacement
+  use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_kinds, only: dp
   use fuge_layer_interior, only: find_cut, is_upper_half, layer_at, layer_cut
   use fuge_layer_stack, only: layer_stack
   use fuge_layered_body_type, only: copy_layers, fuge_layered_body
   use fuge_number_text, only: index_text, text
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_GRID, &
-    FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_ELEMENT, &
+    FUGE_ERR_GRID, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
   implicit none
   private
 
-  public :: find_layers, find_uniform, points_in_top, require_finite, start_points
+  public :: find_layers, find_uniform, points_in_top, refuse_hats, require_finite, start_points
 
 contains
 
@@ -52,36 +53,46 @@ contains
   end subroutine find_layers
 
   !> `which`: the numbers of those in the top layer. FUGE_ERR_MEMORY.
-  subroutine points_in_top(layer, which, info)
+  subroutine points_in_top(layer, in_top, info)
     integer, intent(in) :: layer(:)
-    integer, allocatable, intent(out) :: which(:)
+    integer, allocatable, intent(out) :: in_top(:)
     type(fuge_info), intent(inout) :: info
     integer :: k, number, stat
 
     if (info%failed()) return
-    allocate (which(count(layer == 1)), stat=stat)
+    allocate (in_top(count(layer == 1)), stat=stat)
     call require_memory(stat, 'results at', size(layer), 'depths', info)
     if (stat /= 0) return
     number = 0
     do k = 1, size(layer)
       if (layer(k) /= 1) cycle
       number = number + 1
-      which(number) = k
+      in_top(number) = k
     end do
   end subroutine points_in_top
 
-  !> The points in the top layer, `which`, and room for their part and for all results, which are 0, (components,
+  !> Refuse FUGE_HAT (FUGE_ERR_ELEMENT), unless there is an error already.
+  pure subroutine refuse_hats(element, info)
+    integer, intent(in) :: element
+    type(fuge_info), intent(inout) :: info
+
+    if (info%failed() .or. element /= FUGE_HAT) return
+    call report(info, FUGE_ERR_ELEMENT, 'element FUGE_HAT: in layers the pressure is constant on each cell: use ' &
+                //'FUGE_MEAN, whose influence is the same')
+  end subroutine refuse_hats
+
+  !> The points in the top layer, `which`, and room for their part and for all results, in_top are 0, (components,
   !> points). FUGE_ERR_MEMORY.
-  subroutine start_points(layer, components, which, plain, found, info)
+  subroutine start_points(layer, components, in_top, plain, found, info)
     integer, intent(in) :: layer(:), components
-    integer, allocatable, intent(out) :: which(:)
+    integer, allocatable, intent(out) :: in_top(:)
     real(dp), allocatable, intent(out) :: plain(:, :), found(:, :)
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
-    call points_in_top(layer, which, info)
+    call points_in_top(layer, in_top, info)
     if (info%failed()) return
-    allocate (plain(components, size(which)), found(components, size(layer)), stat=stat)
+    allocate (plain(components, size(in_top)), found(components, size(layer)), stat=stat)
     call require_memory(stat, 'results at', size(layer), 'points', info)
     if (stat == 0) found = 0.0_dp
   end subroutine start_points
@@ -95,9 +106,9 @@ contains
     call report(info, FUGE_ERR_OVERFLOW, 'displacements are out of range: choose other units')
   end subroutine require_finite
 
-  !> What equal pressure everywhere gives at each `depth` (m), length, in its `layer`: `uniform` (3, m), the stresses xx
-  !> and zz over the pressure, zz in the top layer without that of a half-space, and how far it moves down, over the
-  !> pressure over twice the shear modulus of the top layer (`uniform_stress`, `yield_below`). FUGE_ERR_MEMORY.
+  !> The state under equal pressure p everywhere at each `depth` (m), length, of `layer` (m). `uniform` (3, m): xx/p;
+  !> zz/p, 0 in the top layer, where the half-space already has it; and 2 G/p times the displacement along z, G the
+  !> shear modulus of the top layer (`uniform_stress`, `mean_displacement`). FUGE_ERR_MEMORY.
   subroutine find_uniform(body, depth, layer, plane_strain, uniform, info)
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: depth(:)
@@ -121,7 +132,7 @@ contains
       if (stat /= 0) return
       uniform(:2, k) = uniform_stress(cut, plane_strain)
       if (layer(k) == 1) uniform(2, k) = 0.0_dp
-      uniform(3, k) = yield_below(cut)
+      uniform(3, k) = mean_displacement(cut)
     end do
   end subroutine find_uniform
 

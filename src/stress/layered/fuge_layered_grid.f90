@@ -14,7 +14,7 @@ module fuge_layered_grid
 
   type, public :: layered_grid
     !> The body and its layers.
-    type(fuge_layered_body) :: body
+    type(fuge_layered_body), pointer :: body => null()
     type(layer_stack) :: stack
     !> A line of cells along x, or an area?
     logical :: is_line = .false.
@@ -29,16 +29,17 @@ module fuge_layered_grid
 
 contains
 
-  !> Let the forces act on a body that is set. FUGE_ERR_MEMORY.
+  !> Let the forces act on a body that is set, and lives as long as the grid. FUGE_ERR_MEMORY.
   subroutine press(self, body, force, info)
     class(layered_grid), intent(inout) :: self
-    type(fuge_layered_body), intent(in) :: body
+    type(fuge_layered_body), intent(in), target :: body
     real(dp), intent(in) :: force(:)
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
     if (info%failed()) return
-    self%body = body
+    self%body => body
+    if (allocated(self%force)) deallocate (self%force)
     allocate (self%force(size(force)), stat=stat)
     call require_memory(stat, 'the forces of', size(force), 'cells', info)
     if (stat /= 0) return

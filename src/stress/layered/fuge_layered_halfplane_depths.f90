@@ -9,15 +9,14 @@ module fuge_layered_halfplane_depths
   use fuge_halfplane_depths, only: fuge_halfplane_displacement_grid, fuge_halfplane_stress_grid
   use fuge_halfplane_fft, only: FUGE_PERIODIC
   use fuge_halfplane_grid_checks, only: check_halfplane_grid
-  use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_halfspace_depths, only: convolve_tables
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: find_layers, find_uniform, points_in_top
+  use fuge_layer_checks, only: find_layers, find_uniform, points_in_top, refuse_hats, require_finite
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_memory, only: check_memory
   use fuge_mixture_sums, only: bytes_of_sums, mixture_sums, PLACES_OF, WAVES_OF
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ELEMENT
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_grid_checks, only: check_grid_strain
   implicit none
   private
@@ -68,13 +67,14 @@ contains
     integer :: k
 
     call check_halfplane_grid(spacing, force, element, boundary, depth, shape(stress), 'stress', 3, info)
+    call refuse_hats(element, info)
     call find_layers(body, depth, 'depth', work%layer, info, below)
     if (info%failed()) return
     if (.not. body%has_layers()) then
       call fuge_halfplane_stress_grid(spacing, force, element, boundary, depth, stress, info)
       return
     end if
-    call start(work, body, spacing, force, element, boundary, depth, 3, info)
+    call start(work, body, spacing, force, boundary, depth, 3, info)
     if (.not. info%failed()) call fuge_halfplane_stress_grid(spacing, force, element, boundary, &
                                                              depth(work%in_top), work%plain, info)
     do k = 1, size(depth)
@@ -117,6 +117,7 @@ contains
     integer :: k
 
     call check_halfplane_grid(spacing, force, element, boundary, depth, shape(displacement), 'displacement', 2, info)
+    call refuse_hats(element, info)
     call find_layers(body, depth, 'depth', work%layer, info, below)
     if (info%failed()) return
     call check_grid_strain(force, spacing, body%least_young(), info)
@@ -126,12 +127,14 @@ contains
                                             FUGE_PLANE_STRAIN, depth, displacement, info)
       return
     end if
-    call start(work, body, spacing, force, element, boundary, depth, 2, info)
+    call start(work, body, spacing, force, boundary, depth, 2, info)
     ! 1/(2 G) of the top layer.
     compliance = (1.0_dp + body%poisson())/body%young()
     if (.not. info%failed()) call fuge_halfplane_displacement_grid(spacing, force, element, boundary, body%young(), &
                                                                    body%poisson(), FUGE_PLANE_STRAIN, &
                                                                    depth(work%in_top), work%plain, info)
+    if (work%periodic .and. .not. info%failed()) &
+      call require_finite(sum(force)/(spacing*size(force))*compliance*work%uniform(3:, :), info)
     do k = 1, size(depth)
       if (info%failed()) exit
       call work%panels%mixture_at(work%layer(k), depth(k), work%mixture)
@@ -145,27 +148,28 @@ contains
     call work%waves%free()
   end subroutine fuge_layered_halfplane_displacement_grid
 
-  !> Fit the mixtures, compute the sums and transform the forces. FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED. Nine arguments:
-  !> those of the public procedures.
-  subroutine start(work, body, spacing, force, element, boundary, depth, components, info)
+  !> Fit the mixtures, compute the sums and transform the forces. FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED.
+  subroutine start(work, body, spacing, force, boundary, depth, components, info)
     type(grid_work), intent(inout) :: work
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: spacing, force(:), depth(:)
-    integer, intent(in) :: element, boundary, components
+    integer, intent(in) :: boundary, components
     type(fuge_info), intent(inout) :: info
     integer :: first, kind(2), n, stat
 
-    if (element == FUGE_HAT) call report(info, FUGE_ERR_ELEMENT, 'element FUGE_HAT: in layers the pressure is ' &
-                                         //'constant on each cell: use FUGE_MEAN, whose influence is the same')
     call points_in_top(work%layer, work%in_top, info)
     if (info%failed()) return
     work%periodic = boundary == FUGE_PERIODIC
     n = size(force)
+    call check_memory(8.0_dp*components*size(work%in_top)*real(n, dp), 'results at '//text(size(work%in_top)) &
+                      //' depths', info)
+    if (info%failed()) return
     allocate (work%plain(components, n, size(work%in_top)), &
               work%factor(0:merge(n/2, n - 1, work%periodic), 0:0), stat=stat)
     call require_memory(stat, 'results at', n, 'cells', info)
     if (size(depth) < 1) return
     call work%panels%fit(body, work%layer, depth, info)
+    call work%panels%make_room(work%mixture, info)
     if (work%periodic) call find_uniform(body, depth, work%layer, .true., work%uniform, info)
     if (info%failed()) return
     kind = [merge(WAVES_OF, PLACES_OF, work%periodic), WAVES_OF]

@@ -4,15 +4,15 @@ module fuge_layered_halfplane_interior
   use fuge_depth_mixture, only: depth_mixture, OF_ALONG, OF_DOWN, OF_NN, OF_SLOPE, OF_ZZ
   use fuge_depth_panels, only: depth_panels
   use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
-  use fuge_halfplane_influence, only: datum_length, FUGE_HAT
+  use fuge_halfplane_influence, only: datum_length
   use fuge_halfplane_interior, only: check_points, displacement_factors, fuge_halfplane_displacement, &
     fuge_halfplane_stress
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: find_layers, require_finite, start_points
+  use fuge_layer_checks, only: find_layers, refuse_hats, require_finite, start_points
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_point_gaussians, only: point_gaussians, point_loads, PLAIN, SLOPE_X
   use fuge_pressed_line, only: check_line, pressed_line
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ELEMENT
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_checks, only: check_result
   implicit none
   private
@@ -38,22 +38,22 @@ contains
     type(fuge_info), intent(out) :: info
     logical, intent(in), optional :: below(:), symmetric
     real(dp), allocatable :: found(:, :), plain(:, :)
-    integer, allocatable :: layer(:), which(:)
+    integer, allocatable :: layer(:), in_top(:)
     integer :: k
 
     call check(body, x, width, force, element, px, pz, layer, info, below, symmetric)
     call check_result(shape(stress), 'stress', 3, size(pz), info)
     if (info%failed()) return
-    call start_points(layer, 3, which, plain, found, info)
-    if (.not. info%failed()) call fuge_halfplane_stress(x, width, force, element, px(which), pz(which), plain, info, &
+    call start_points(layer, 3, in_top, plain, found, info)
+    if (.not. info%failed()) call fuge_halfplane_stress(x, width, force, element, px(in_top), pz(in_top), plain, info, &
                                                         symmetric)
     if (info%failed()) return
     call add_layers(body, x, width, force, layer, px, pz, found, info, symmetric)
     if (info%failed()) return
-    do k = 1, size(which)
-      found(:, which(k)) = found(:, which(k)) + plain(:, k)
+    do k = 1, size(in_top)
+      found(:, in_top(k)) = found(:, in_top(k)) + plain(:, k)
       ! The pressure, without a rounding.
-      if (.not. pz(which(k)) > 0.0_dp) found(2:3, which(k)) = plain(2:3, k)
+      if (.not. pz(in_top(k)) > 0.0_dp) found(2:3, in_top(k)) = plain(2:3, k)
     end do
     stress = found
   end subroutine fuge_layered_halfplane_stress
@@ -75,24 +75,24 @@ contains
     logical, intent(in), optional :: below(:), symmetric
     real(dp), allocatable :: found(:, :), plain(:, :)
     real(dp) :: factor(3)
-    integer, allocatable :: layer(:), which(:)
+    integer, allocatable :: layer(:), in_top(:)
     integer :: k
 
     call check(body, x, width, force, element, px, pz, layer, info, below, symmetric)
     call check_result(shape(displacement), 'displacement', 2, size(pz), info)
     if (.not. info%failed()) call displacement_factors(body%young(), body%poisson(), FUGE_PLANE_STRAIN, factor, info)
     if (info%failed()) return
-    call start_points(layer, 2, which, plain, found, info)
+    call start_points(layer, 2, in_top, plain, found, info)
     if (.not. info%failed()) call fuge_halfplane_displacement(x, width, force, element, body%young(), body%poisson(), &
-                                                              FUGE_PLANE_STRAIN, px(which), pz(which), plain, info, &
+                                                              FUGE_PLANE_STRAIN, px(in_top), pz(in_top), plain, info, &
                                                               symmetric)
     if (info%failed()) return
     call add_layers(body, x, width, force, layer, px, pz, found, info, symmetric)
     if (info%failed()) return
     ! 1/(2 G) of the top layer.
     found = found*((1.0_dp + body%poisson())/body%young())
-    do k = 1, size(which)
-      found(:, which(k)) = found(:, which(k)) + plain(:, k)
+    do k = 1, size(in_top)
+      found(:, in_top(k)) = found(:, in_top(k)) + plain(:, k)
     end do
     call require_finite(found, info)
     if (.not. info%failed()) displacement = found
@@ -115,9 +115,7 @@ contains
     folded = .false.
     if (present(symmetric)) folded = symmetric
     call check_line(x, width, force, element, folded, info)
-    if (.not. info%failed() .and. element == FUGE_HAT) &
-      call report(info, FUGE_ERR_ELEMENT, 'element FUGE_HAT: in layers the pressure is constant on each cell: use ' &
-                  //'FUGE_MEAN, whose influence is the same')
+    call refuse_hats(element, info)
     call check_points(px, pz, info)
     call line%set(x, width, force, element, folded, info)
     call line%check_distances(px, pz, info)
@@ -125,7 +123,7 @@ contains
   end subroutine check
 
   !> Add the stresses (3, points), or twice the shear modulus of the top layer times the displacements (2, points), of
-  !> which those in the top layer lack what a half-plane gives. FUGE_ERR_MEMORY.
+  !> in_top those in the top layer lack what a half-plane gives. FUGE_ERR_MEMORY.
   !>
   !> Ten arguments: the cells, the points, the results.
   subroutine add_layers(body, x, width, force, layer, px, pz, values, info, symmetric)
@@ -148,10 +146,13 @@ contains
     if (present(symmetric)) folded = symmetric
     call loads%take_line(x, width, force, folded, stat)
     call require_memory(stat, 'the line of', size(x), 'cells', info)
-    if (stat == 0) call panels%fit(body, layer, pz, info)
+    if (stat /= 0) return
+    if (size(loads%force) < 1) return
+    call panels%fit(body, layer, pz, info)
+    call panels%make_room(mixture, info)
     reach = datum_length(x, width, folded)
     do k = 1, size(pz)
-      if (info%failed() .or. size(loads%force) < 1) return
+      if (info%failed()) return
       call panels%mixture_at(layer(k), pz(k), mixture)
       call sums%add_up(loads, px(k:k), mixture%first, stat)
       call require_memory(stat, 'results at', size(pz), 'points', info)

@@ -13,7 +13,7 @@ module fuge_layered_halfspace_depths
     fuge_halfspace_stress_grid, DISPLACEMENT_KINDS, STRESS_KINDS
   use fuge_halfspace_grid, only: halfspace_grid, periodic, FUGE_PERIODIC_X
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: find_layers, find_uniform, points_in_top
+  use fuge_layer_checks, only: find_layers, find_uniform, points_in_top, require_finite
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_memory, only: check_memory
   use fuge_mixture_sums, only: bytes_of_sums, mixture_sums, CIRCLE_OF, PLACES_OF, WAVES_OF
@@ -56,7 +56,8 @@ contains
   !> the pressure, and of stiff films 1e-15 of their stress under the longest waves: 1e-9 of xx for films 1e6 times as
   !> stiff; up to 1e-7 where a soft incompressible layer lies between stiff ones, which slide on it as on a fluid. With
   !> FUGE_PERIODIC the mean pressure gives the half-space below the layers no stress along the surface, and the layers
-  !> the same strain as it has; on a rigid base none, but layers that slide have no stress along the surface.
+  !> the same strain as it has. On a rigid base layers have no strain along the surface, and those that slide on it no
+  !> resultant force along it: both are the limit of long waves in one direction.
   !>
   !> Eleven arguments, because the grid alone has four. Errors, stress untouched: as for `fuge_halfspace_stress_grid`,
   !> FUGE_ERR_CALL_ORDER for a body that is not set, FUGE_ERR_GRID for a depth in a rigid base. Source:
@@ -75,7 +76,8 @@ contains
     call describe(nx, ny, spacing_x, spacing_y, boundary, work)
     call check_stress_grid(work%grid, force, depth, shape(stress), 'stress', 6, info)
     call find_layers(body, depth, 'depth', work%layer, info, below)
-    if (.not. info%failed() .and. .not. body%has_layers()) then
+    if (info%failed()) return
+    if (.not. body%has_layers()) then
       call fuge_halfspace_stress_grid(nx, ny, spacing_x, spacing_y, force, boundary, body%poisson(), depth, stress, &
                                       info)
       return
@@ -107,8 +109,8 @@ contains
   !> `body`, `depth` and `below` as for `fuge_layered_halfspace_stress_grid`; others as for
   !> `fuge_halfspace_displacement_grid`, without the moduli. Where layers slide x and y differ above and below the
   !> interface. With FUGE_PERIODIC displacements count from the mean at each depth, but on a rigid base from the base:
-  !> the mean is that of the operator with this body. With one periodic
-  !> direction the datum is that of `fuge_halfspace_operator` with this body.
+  !> the mean is that of the operator with this body. With one periodic direction the datum is that of
+  !> `fuge_halfspace_operator` with this body.
   !>
   !> Eleven arguments: those of the grid and of the body. Errors, displacement untouched: as for
   !> `fuge_layered_halfspace_stress_grid`. Source: as there.
@@ -129,7 +131,8 @@ contains
     call find_layers(body, depth, 'depth', work%layer, info, below)
     if (info%failed()) return
     call check_grid_strain(force, product(work%grid%spacing), body%least_young(), info)
-    if (.not. info%failed() .and. .not. body%has_layers()) then
+    if (info%failed()) return
+    if (.not. body%has_layers()) then
       call fuge_halfspace_displacement_grid(nx, ny, spacing_x, spacing_y, force, boundary, body%young(), &
                                             body%poisson(), depth, displacement, info)
       return
@@ -140,6 +143,8 @@ contains
     if (.not. info%failed()) call fuge_halfspace_displacement_grid(nx, ny, spacing_x, spacing_y, force, boundary, &
                                                                    body%young(), body%poisson(), depth(work%in_top), &
                                                                    work%plain, info)
+    if (boundary == FUGE_PERIODIC .and. .not. info%failed()) &
+      call require_finite(sum(force)/(spacing_x*spacing_y*size(force))*compliance*work%uniform(3:, :), info)
     do k = 1, size(depth)
       if (info%failed()) exit
       call work%panels%mixture_at(work%layer(k), depth(k), work%mixture)
@@ -175,10 +180,14 @@ contains
 
     call points_in_top(work%layer, work%in_top, info)
     if (info%failed()) return
+    call check_memory(8.0_dp*components*size(work%in_top)*real(size(force), dp), 'results at ' &
+                      //text(size(work%in_top))//' depths', info)
+    if (info%failed()) return
     allocate (work%plain(components, size(force), size(work%in_top)), stat=stat)
     call require_memory(stat, 'results at', size(force), 'cells', info)
     if (size(depth) < 1) return
     call work%panels%fit(body, work%layer, depth, info)
+    call work%panels%make_room(work%mixture, info)
     if (work%grid%boundary == FUGE_PERIODIC) call find_uniform(body, depth, work%layer, .false., work%uniform, info)
     if (info%failed()) return
     kind = PLACES_OF

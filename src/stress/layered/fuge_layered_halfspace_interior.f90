@@ -40,7 +40,7 @@ contains
     type(fuge_info), intent(out) :: info
     logical, intent(in), optional :: below(:), symmetric_x, symmetric_y
     real(dp), allocatable :: found(:, :), plain(:, :)
-    integer, allocatable :: layer(:), which(:)
+    integer, allocatable :: layer(:), in_top(:)
     integer :: k
 
     call check_area(x, y, width_x, width_y, force, given_symmetry(symmetric_x, symmetric_y), info)
@@ -48,17 +48,17 @@ contains
     call check_result(shape(stress), 'stress', 6, size(pz), info)
     call find_layers(body, pz, 'pz', layer, info, below)
     if (info%failed()) return
-    call start_points(layer, 6, which, plain, found, info)
-    if (.not. info%failed()) call fuge_halfspace_stress(x, y, width_x, width_y, force, body%poisson(), px(which), &
-                                                        py(which), pz(which), plain, info, symmetric_x, symmetric_y)
+    call start_points(layer, 6, in_top, plain, found, info)
+    if (.not. info%failed()) call fuge_halfspace_stress(x, y, width_x, width_y, force, body%poisson(), px(in_top), &
+                                                        py(in_top), pz(in_top), plain, info, symmetric_x, symmetric_y)
     if (info%failed()) return
     call add_layers(body, x, y, width_x, width_y, force, given_symmetry(symmetric_x, symmetric_y), layer, px, py, pz, &
                     found, info)
     if (info%failed()) return
-    do k = 1, size(which)
-      found(:, which(k)) = found(:, which(k)) + plain(:, k)
+    do k = 1, size(in_top)
+      found(:, in_top(k)) = found(:, in_top(k)) + plain(:, k)
       ! The pressure, without a rounding.
-      if (.not. pz(which(k)) > 0.0_dp) found(3:5, which(k)) = plain(3:5, k)
+      if (.not. pz(in_top(k)) > 0.0_dp) found(3:5, in_top(k)) = plain(3:5, k)
     end do
     stress = found
   end subroutine fuge_layered_halfspace_stress
@@ -78,7 +78,7 @@ contains
     type(fuge_info), intent(out) :: info
     logical, intent(in), optional :: below(:), symmetric_x, symmetric_y
     real(dp), allocatable :: found(:, :), plain(:, :)
-    integer, allocatable :: layer(:), which(:)
+    integer, allocatable :: layer(:), in_top(:)
     integer :: k
 
     call check_area(x, y, width_x, width_y, force, given_symmetry(symmetric_x, symmetric_y), info)
@@ -88,9 +88,9 @@ contains
     if (.not. info%failed()) call check_displacement_range(force, min(minval(width_x), minval(width_y)), &
                                                            body%least_young(), info)
     if (info%failed()) return
-    call start_points(layer, 3, which, plain, found, info)
+    call start_points(layer, 3, in_top, plain, found, info)
     if (.not. info%failed()) call fuge_halfspace_displacement(x, y, width_x, width_y, force, body%young(), &
-                                                              body%poisson(), px(which), py(which), pz(which), plain, &
+                                                              body%poisson(), px(in_top), py(in_top), pz(in_top), plain, &
                                                               info, symmetric_x, symmetric_y)
     if (info%failed()) return
     call add_layers(body, x, y, width_x, width_y, force, given_symmetry(symmetric_x, symmetric_y), layer, px, py, pz, &
@@ -98,15 +98,15 @@ contains
     if (info%failed()) return
     ! 1/(2 G) of the top layer.
     found = found*((1.0_dp + body%poisson())/body%young())
-    do k = 1, size(which)
-      found(:, which(k)) = found(:, which(k)) + plain(:, k)
+    do k = 1, size(in_top)
+      found(:, in_top(k)) = found(:, in_top(k)) + plain(:, k)
     end do
     call require_finite(found, info)
     if (.not. info%failed()) displacement = found
   end subroutine fuge_layered_halfspace_displacement
 
   !> Add the stresses (6, points), or twice the shear modulus of the top layer times the displacements (3, points), of
-  !> which those in the top layer lack what a half-space gives. FUGE_ERR_MEMORY.
+  !> in_top those in the top layer lack what a half-space gives. FUGE_ERR_MEMORY.
   !>
   !> Twelve arguments: the rectangles, the points, the results.
   subroutine add_layers(body, x, y, width_x, width_y, force, symmetric, layer, px, py, pz, values, info)
@@ -127,9 +127,11 @@ contains
     call area%set(x, y, width_x, width_y, force, symmetric, stat)
     if (stat == 0) call loads%take_area(area, stat)
     call require_memory(stat, 'the area of', size(x), 'rectangles', info)
-    if (stat == 0) call panels%fit(body, layer, pz, info)
+    if (stat /= 0 .or. area%count < 1) return
+    call panels%fit(body, layer, pz, info)
+    call panels%make_room(mixture, info)
     do k = 1, size(pz)
-      if (info%failed() .or. area%count < 1) return
+      if (info%failed()) return
       call panels%mixture_at(layer(k), pz(k), mixture)
       call sums%add_up(loads, [px(k), py(k)], mixture%first, stat)
       call require_memory(stat, 'results at', size(pz), 'points', info)

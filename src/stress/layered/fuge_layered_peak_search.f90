@@ -21,7 +21,7 @@ module fuge_layered_peak_search
   real(dp), parameter :: RATIO = 1.3_dp, FIRST_DEPTH = 0.25_dp, LAST_DEPTH = 2.0_dp
   !> A maximum among fewer than three depths may hide one that is larger by so much.
   real(dp), parameter :: HIDDEN = 0.05_dp
-  !> A gain of this fraction is none.
+  !> A relative gain below this counts as none.
   real(dp), parameter :: SAME = 1.0e-10_dp
   !> Depths that are found at a time, and steps of the search for a maximum between two of them.
   integer, parameter :: PORTION = 4, STEPS = 40
@@ -48,15 +48,16 @@ contains
   !> The largest von Mises or Tresca stress in a body of layers below the centres of a grid of rectangles.
   !>
   !> `body`, `nx`, `ny`, `spacing_x`, `spacing_y`, `force` and `boundary` as for `fuge_layered_halfspace_stress_grid`;
-  !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, of all layers, both sides of their
-  !> interfaces, the surface, and all depths from a quarter of a cell on: the value to 1e-9 or better of the largest one
-  !> below the centres of cells, whose distance is what limits it; to 1e-4 where cells at other depths come as close to
-  !> it. Where the pressure grows towards the edge of a flat punch it is that of the grid.
+  !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, the largest value
+  !> below the centres of the cells: in all layers, on both sides of each interface, at the surface, and at all depths
+  !> from a quarter of the smaller cell width on. Its relative error is at most 1e-9, or 1e-4 where the cell of the
+  !> largest value changes at that depth. The stress between the centres of cells may be larger by an error of the order
+  !> of a cell. At the edge of a flat punch, where the exact stress is infinite, the value depends on the grid.
   !>
   !> Ten arguments: the grid alone has four. Errors, `peak` untouched: those of `fuge_layered_halfspace_stress_grid`;
   !> FUGE_ERR_OPTION for `measure`; FUGE_ERR_OVERFLOW if no stress is finite.
   subroutine fuge_layered_halfspace_peak(body, nx, ny, spacing_x, spacing_y, force, boundary, measure, peak, info)
-    type(fuge_layered_body), intent(in) :: body
+    type(fuge_layered_body), intent(in), target :: body
     integer, intent(in) :: nx, ny, boundary, measure
     real(dp), intent(in) :: spacing_x, spacing_y, force(:)
     type(fuge_layer_peak), intent(inout) :: peak
@@ -74,7 +75,7 @@ contains
   !> `body`, `spacing`, `force`, `element` and `boundary` as for `fuge_layered_halfplane_stress_grid`; `measure`, `peak`
   !> and errors as for `fuge_layered_halfspace_peak`.
   subroutine fuge_layered_halfplane_peak(body, spacing, force, element, boundary, measure, peak, info)
-    type(fuge_layered_body), intent(in) :: body
+    type(fuge_layered_body), intent(in), target :: body
     real(dp), intent(in) :: spacing, force(:)
     integer, intent(in) :: element, boundary, measure
     type(fuge_layer_peak), intent(inout) :: peak
@@ -91,7 +92,7 @@ contains
 
   subroutine search(grid, body, force, measure, peak, info)
     type(layered_grid), intent(inout) :: grid
-    type(fuge_layered_body), intent(in) :: body
+    type(fuge_layered_body), intent(in), target :: body
     real(dp), intent(in) :: force(:)
     integer, intent(in) :: measure
     type(fuge_layer_peak), intent(inout) :: peak
@@ -129,7 +130,7 @@ contains
       do k = 1, size(at)
         call refine(grid, measure, at, k, best, info)
       end do
-      if (best%value < 0.0_dp) call report(info, FUGE_ERR_OVERFLOW, &
+      if (.not. info%failed() .and. best%value < 0.0_dp) call report(info, FUGE_ERR_OVERFLOW, &
                                            'no stress is in range: choose another unit of force')
     end if
     if (.not. info%failed()) peak = best
@@ -174,7 +175,7 @@ contains
       low = min(low, place)
       high = max(high, place)
     end do
-    extent = maxval((high - low + 1)*grid%spacing, mask=grid%cells > 1 .or. [.true., .not. grid%is_line])
+    extent = maxval((high - low + 1)*grid%spacing)
   end function extent_of
 
   !> How many depths are tried between the sides of a layer, these included: at least three, but none between the
@@ -268,8 +269,8 @@ contains
     first = max(window(1), k - 1)
     last = min(window(2), k + 1)
     if (any(at(first:last)%value > at(k)%value)) return
-    if (promise(at(window(1):window(2)), at(k)%value) > (1.0_dp + SAME)*best%value) &
-      call climb(grid, measure, at(first)%depth, at(last)%depth, at(k), best, info)
+    if (upper_estimate(at(window(1):window(2)), at(k)%value) > (1.0_dp + SAME)*best%value) &
+      call maximise(grid, measure, at(first)%depth, at(last)%depth, at(k), best, info)
   end subroutine refine
 
   !> The first and the last of three depths of the layer of depth `k`, that one in the middle if it is not at a side of
@@ -301,30 +302,30 @@ contains
 
   end function depths_around
 
-  !> How large the maximum between these depths may be, of which the largest `value` is known: by the parabola through
-  !> three of them, and as much again.
-  pure function promise(at, value)
+  !> Upper estimate of the maximum between these depths, whose largest known value is `value`: the vertex of the
+  !> parabola through three of them, with its excess over `value` doubled.
+  pure function upper_estimate(at, value)
     type(fuge_layer_peak), intent(in) :: at(:)
     real(dp), intent(in) :: value
-    real(dp) :: promise
-    real(dp) :: curvature, slope(2), x(3)
+    real(dp) :: upper_estimate
+    real(dp) :: half_curvature, slope(2), x(3)
 
-    promise = (1.0_dp + HIDDEN)*value
+    upper_estimate = (1.0_dp + HIDDEN)*value
     if (size(at) < 3) return
     x = at%depth
     slope = (at(2:)%value - at(:2)%value)/(x(2:) - x(:2))
-    curvature = (slope(2) - slope(1))/(x(3) - x(1))
-    promise = value
-    if (.not. curvature < 0.0_dp) return
+    half_curvature = (slope(2) - slope(1))/(x(3) - x(1))
+    upper_estimate = value
+    if (.not. half_curvature < 0.0_dp) return
     ! The slope at the first depth, at the last one, and the height of the vertex above the second one.
-    if (slope(1) - curvature*(x(2) - x(1)) <= 0.0_dp .or. slope(2) + curvature*(x(3) - x(2)) >= 0.0_dp) return
-    promise = value + 2.0_dp*max(0.0_dp, at(2)%value - value &
-                                         - 0.25_dp*(slope(1) + curvature*(x(2) - x(1)))**2/curvature)
-  end function promise
+    if (slope(1) - half_curvature*(x(2) - x(1)) <= 0.0_dp .or. slope(2) + half_curvature*(x(3) - x(2)) >= 0.0_dp) return
+    upper_estimate = value + 2.0_dp*max(0.0_dp, at(2)%value - value &
+                                         - 0.25_dp*(slope(1) + half_curvature*(x(2) - x(1)))**2/half_curvature)
+  end function upper_estimate
 
   !> The maximum between the depths `upper` and `lower` by R. P. Brent's method (Algorithms for Minimization without
   !> Derivatives, 1973, chapter 5), from `start` between them.
-  subroutine climb(grid, measure, upper, lower, start, best, info)
+  subroutine maximise(grid, measure, upper, lower, start, best, info)
     type(layered_grid), intent(in) :: grid
     integer, intent(in) :: measure
     real(dp), intent(in) :: upper, lower
@@ -366,7 +367,7 @@ contains
       end if
     end do
     if (point(1)%value > best%value) best = point(1)
-  end subroutine climb
+  end subroutine maximise
 
   pure function is_same(a, b)
     real(dp), intent(in) :: a, b
