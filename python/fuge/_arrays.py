@@ -78,15 +78,6 @@ def array(name: str, value: ArrayLike) -> NDArray[Any]:
     return np.asarray(value)
 
 
-def flags(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Ints:
-    """Truth values, broadcast to a shape."""
-    found = array(name, value).astype(bool)
-    try:
-        return np.ascontiguousarray(np.broadcast_to(found, shape), dtype=np.intc)
-    except ValueError:
-        raise error(Status.ERR_SIZE, f"{name} has the shape {found.shape}, but must fit {shape}") from None
-
-
 def _real(name: str, value: ArrayLike) -> NDArray[Any]:
     found = array(name, value)
     if found.dtype.kind not in "iuf":
@@ -156,6 +147,15 @@ def flags(name: str, value: ArrayLike, *shapes: Shape) -> Ints:
     if shapes:
         check_shape(name, found.shape, *shapes)
     return np.ascontiguousarray(found, dtype=np.intc)
+
+
+def spread_flags(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Ints:
+    """Booleans, or one for all, broadcast to a shape."""
+    found = flags(name, value)
+    try:
+        return np.ascontiguousarray(np.broadcast_to(found, shape))
+    except ValueError:
+        raise error(Status.ERR_SIZE, f"{name} has the shape {found.shape}, but must fit {shape}") from None
 
 
 def choice(name: str, value: Any, values: Mapping[str, int], status: Status = Status.ERR_OPTION) -> int:

@@ -26,7 +26,7 @@ def _at_points(
     *coordinates: tuple[str, ArrayLike],
 ) -> NDArray[np.float64]:
     shape, flat = _arrays.points(*coordinates)
-    sides = _arrays.flags("below", below, shape)
+    sides = _arrays.spread_flags("below", below, shape)
     result = np.empty((*shape, components))
     shapes = dict.fromkeys([coordinate for coordinate, _ in coordinates] + ["point"], shape)
     call(name, *layers.arguments()[:-1], *arguments, flat[0].size, *flat, sides, result, shapes=shapes)

@@ -88,7 +88,7 @@ def _at_depths(
     components: int,
 ) -> NDArray[np.float64]:
     depths = _arrays.vector("depth", np.atleast_1d(_arrays.array("depth", depth)))
-    sides = _arrays.flags("below", below, depths.shape)
+    sides = _arrays.spread_flags("below", below, depths.shape)
     result = np.empty((depths.size, *grid, components))
     body = layers.arguments()[:-1]
     call(name, *body, *arguments, depths.size, depths, sides, result, shapes={"force": grid})

@@ -1,4 +1,4 @@
-"""Stresses and displacements in layers: a layer that is none, both sides of an interface, what coatings fail by."""
+"""Stresses and displacements in layers: a layer that is none, both sides of an interface, what cracks coatings."""
 
 import unittest
 
@@ -73,7 +73,7 @@ class LayerStress(unittest.TestCase):
     def test_peak(self):
         peak = fuge.layered_halfspace_peak(FILM, 0.2, 0.2, ball())
         depth = [0.0, 0.1, 0.3, 0.3, 0.6, 1.0]
-        stress = fuge.layered_halfspace_stress_grid(FILM, 0.2, 0.2, ball(), depth, below=[0, 0, 0, 1, 0, 0])
+        stress = fuge.layered_halfspace_stress_grid(FILM, 0.2, 0.2, ball(), depth, below=np.arange(6) == 3)
         self.assertGreaterEqual(peak.value, fuge.von_mises(stress).max() * (1 - 1e-9))
         self.assertAlmostEqual(peak.value, float(fuge.von_mises(peak.tensor)), delta=1e-12 * peak.value)
         self.assertEqual(len(peak.cell), 2)
@@ -81,6 +81,12 @@ class LayerStress(unittest.TestCase):
         line = fuge.layered_halfplane_peak(FILM, 0.2, ball()[4], "periodic", "tresca")
         self.assertGreater(line.value, 0.0)
         self.assertEqual(len(line.cell), 1)
+
+    def test_sides(self):
+        with self.assertRaisesRegex(TypeError, "below must hold booleans"):
+            fuge.layered_halfspace_stress_grid(FILM, 0.2, 0.2, ball(), 0.3, below=1)
+        with self.assertRaisesRegex(fuge.InputError, "below has the shape"):
+            fuge.layered_halfspace_stress_grid(FILM, 0.2, 0.2, ball(), [0.0, 0.3], below=[True] * 3)
 
     def test_errors(self):
         rigid = fuge.Layers(0.3, [1.0, np.inf], 0.3)

@@ -90,8 +90,8 @@ contains
     if (info%failed()) return
     call start_points(layer, 3, in_top, plain, found, info)
     if (.not. info%failed()) call fuge_halfspace_displacement(x, y, width_x, width_y, force, body%young(), &
-                                                              body%poisson(), px(in_top), py(in_top), pz(in_top), plain, &
-                                                              info, symmetric_x, symmetric_y)
+                                                              body%poisson(), px(in_top), py(in_top), pz(in_top), &
+                                                              plain, info, symmetric_x, symmetric_y)
     if (info%failed()) return
     call add_layers(body, x, y, width_x, width_y, force, given_symmetry(symmetric_x, symmetric_y), layer, px, py, pz, &
                     found, info)
