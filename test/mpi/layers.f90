@@ -173,7 +173,7 @@ contains
       call fill(n, 1, 1, n, load, whole_problem)
     end if
     ! On a film forces agree less well, but better than to the error that both estimate.
-    call check_solves(label('line', kind, boundary, element), merge(1.0e-9_dp, 1.0e-15_dp*n, kind == FILM), 3, 3, &
+    call check_solves(label('line', kind, boundary, element), merge(5.0e-9_dp, 1.0e-15_dp*n, kind == FILM), 3, 3, &
                       shared, whole, problem, whole_problem)
   end subroutine solve_line
 
