@@ -43,7 +43,7 @@ contains
   !>
   !> Nine arguments: the grid alone has four. Errors, peaks untouched: as for `fuge_layered_halfspace_stress_grid`.
   subroutine fuge_layered_halfspace_interfaces(body, nx, ny, spacing_x, spacing_y, force, boundary, peaks, info)
-    type(fuge_layered_body), intent(in), target :: body
+    type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: nx, ny, boundary
     real(dp), intent(in) :: spacing_x, spacing_y, force(:)
     type(fuge_interface_stress), intent(inout) :: peaks(:)
@@ -62,7 +62,7 @@ contains
   !> `fuge_layered_halfspace_interfaces`; a principal stress may be that along the line. Errors, peaks untouched: as for
   !> `fuge_layered_halfplane_stress_grid`.
   subroutine fuge_layered_halfplane_interfaces(body, spacing, force, element, boundary, peaks, info)
-    type(fuge_layered_body), intent(in), target :: body
+    type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: spacing, force(:)
     integer, intent(in) :: element, boundary
     type(fuge_interface_stress), intent(inout) :: peaks(:)
@@ -79,7 +79,7 @@ contains
 
   subroutine find_interfaces(grid, body, force, peaks, info)
     type(layered_grid), intent(inout) :: grid
-    type(fuge_layered_body), intent(in), target :: body
+    type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: force(:)
     type(fuge_interface_stress), intent(inout) :: peaks(:)
     type(fuge_info), intent(inout) :: info
@@ -98,7 +98,7 @@ contains
     do k = 1, size(peaks)
       sides = sides_of(grid%stack, k - 1)
       found(k)%depth = sum(grid%stack%thickness(:k - 1))
-      call grid%tensors(spread(found(k)%depth, 1, sides), BELOW(:sides), tensor(:, :, :sides), info)
+      call grid%tensors(body, spread(found(k)%depth, 1, sides), BELOW(:sides), tensor(:, :, :sides), info)
       do side = 1, sides
         if (.not. info%failed()) call take_side(tensor(:, :, side), side, principal, found(k), info)
       end do

@@ -13,8 +13,7 @@ module fuge_layered_grid
   private
 
   type, public :: layered_grid
-    !> The body and its layers.
-    type(fuge_layered_body), pointer :: body => null()
+    !> The layers of the body.
     type(layer_stack) :: stack
     !> A line of cells along x, or an area?
     logical :: is_line = .false.
@@ -29,16 +28,15 @@ module fuge_layered_grid
 
 contains
 
-  !> Let the forces act on a body that is set, and lives as long as the grid. FUGE_ERR_MEMORY.
+  !> Let the forces act on a body that is set. FUGE_ERR_MEMORY.
   subroutine press(self, body, force, info)
     class(layered_grid), intent(inout) :: self
-    type(fuge_layered_body), intent(in), target :: body
+    type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: force(:)
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
     if (info%failed()) return
-    self%body => body
     if (allocated(self%force)) deallocate (self%force)
     allocate (self%force(size(force)), stat=stat)
     call require_memory(stat, 'the forces of', size(force), 'cells', info)
@@ -47,11 +45,12 @@ contains
     call copy_layers(body, self%stack, info)
   end subroutine press
 
-  !> `tensor` (6, cells, m): xx, yy, zz, yz, xz, xy below the centres of cells at each `depth` (m), at an interface
-  !> above it or `below` (m). Errors, `tensor` untouched: those of `fuge_layered_halfspace_stress_grid` and
-  !> `fuge_layered_halfplane_stress_grid`.
-  subroutine tensors(self, depth, below, tensor, info)
+  !> `tensor` (6, cells, m), in the `body` of the forces: xx, yy, zz, yz, xz, xy below the centres of cells at each
+  !> `depth` (m), at an interface above it or `below` (m). Errors, `tensor` untouched: those of
+  !> `fuge_layered_halfspace_stress_grid` and `fuge_layered_halfplane_stress_grid`.
+  subroutine tensors(self, body, depth, below, tensor, info)
     class(layered_grid), intent(in) :: self
+    type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: depth(:)
     logical, intent(in) :: below(:)
     real(dp), intent(inout) :: tensor(:, :, :)
@@ -60,14 +59,14 @@ contains
     integer :: k, stat
 
     if (.not. self%is_line) then
-      call fuge_layered_halfspace_stress_grid(self%body, self%cells(1), self%cells(2), self%spacing(1), &
+      call fuge_layered_halfspace_stress_grid(body, self%cells(1), self%cells(2), self%spacing(1), &
                                               self%spacing(2), self%force, self%boundary, depth, tensor, info, below)
       return
     end if
     allocate (stress(3, size(self%force), size(depth)), stat=stat)
     call require_memory(stat, 'stresses at', size(self%force), 'cells', info)
     if (stat /= 0) return
-    call fuge_layered_halfplane_stress_grid(self%body, self%spacing(1), self%force, self%element, self%boundary, &
+    call fuge_layered_halfplane_stress_grid(body, self%spacing(1), self%force, self%element, self%boundary, &
                                             depth, stress, info, below)
     if (info%failed()) return
     do k = 1, size(depth)

@@ -57,7 +57,7 @@ contains
   !> Ten arguments: the grid alone has four. Errors, `peak` untouched: those of `fuge_layered_halfspace_stress_grid`;
   !> FUGE_ERR_OPTION for `measure`; FUGE_ERR_OVERFLOW if no stress is finite.
   subroutine fuge_layered_halfspace_peak(body, nx, ny, spacing_x, spacing_y, force, boundary, measure, peak, info)
-    type(fuge_layered_body), intent(in), target :: body
+    type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: nx, ny, boundary, measure
     real(dp), intent(in) :: spacing_x, spacing_y, force(:)
     type(fuge_layer_peak), intent(inout) :: peak
@@ -75,7 +75,7 @@ contains
   !> `body`, `spacing`, `force`, `element` and `boundary` as for `fuge_layered_halfplane_stress_grid`; `measure`, `peak`
   !> and errors as for `fuge_layered_halfspace_peak`.
   subroutine fuge_layered_halfplane_peak(body, spacing, force, element, boundary, measure, peak, info)
-    type(fuge_layered_body), intent(in), target :: body
+    type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: spacing, force(:)
     integer, intent(in) :: element, boundary, measure
     type(fuge_layer_peak), intent(inout) :: peak
@@ -92,7 +92,7 @@ contains
 
   subroutine search(grid, body, force, measure, peak, info)
     type(layered_grid), intent(inout) :: grid
-    type(fuge_layered_body), intent(in), target :: body
+    type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: force(:)
     integer, intent(in) :: measure
     type(fuge_layer_peak), intent(inout) :: peak
@@ -114,7 +114,7 @@ contains
     call require_memory(stat, 'stresses at', size(force), 'cells', info)
     if (stat /= 0) return
     ! What is no grid is refused.
-    call grid%tensors([0.0_dp], [.false.], tensor, info)
+    call grid%tensors(body, [0.0_dp], [.false.], tensor, info)
     if (info%failed()) return
     best = fuge_layer_peak()
     if (any(abs(force) > 0.0_dp)) then
@@ -124,11 +124,11 @@ contains
       call require_memory(stat, 'the search at', number, 'depths', info)
       if (stat /= 0) return
       call list_depths(grid, at, number)
-      call evaluate(grid, measure, at, info)
+      call evaluate(grid, body, measure, at, info)
       if (info%failed()) return
       best = at(maxloc(at%value, dim=1))
       do k = 1, size(at)
-        call refine(grid, measure, at, k, best, info)
+        call refine(grid, body, measure, at, k, best, info)
       end do
       if (.not. info%failed() .and. best%value < 0.0_dp) call report(info, FUGE_ERR_OVERFLOW, &
                                            'no stress is in range: choose another unit of force')
@@ -225,8 +225,9 @@ contains
   end function shallowest
 
   !> Find the largest values at the depths, in their layers; -1 where none is finite.
-  subroutine evaluate(grid, measure, at, info)
+  subroutine evaluate(grid, body, measure, at, info)
     type(layered_grid), intent(in) :: grid
+    type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: measure
     type(fuge_layer_peak), intent(inout) :: at(:)
     type(fuge_info), intent(inout) :: info
@@ -243,7 +244,7 @@ contains
     end do
     do first = 1, size(at), PORTION
       last = min(first + PORTION - 1, size(at))
-      call grid%tensors(at(first:last)%depth, below(first:last), tensor(:, :, :last - first + 1), info)
+      call grid%tensors(body, at(first:last)%depth, below(first:last), tensor(:, :, :last - first + 1), info)
       if (info%failed()) return
       do k = first, last
         call measure_all(measure, tensor(:, :, k - first + 1), value, normal)
@@ -255,8 +256,9 @@ contains
   end subroutine evaluate
 
   !> Search between the neighbours of depth `k` if it is a maximum that may be larger than the `best`.
-  subroutine refine(grid, measure, at, k, best, info)
+  subroutine refine(grid, body, measure, at, k, best, info)
     type(layered_grid), intent(in) :: grid
+    type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: measure, k
     type(fuge_layer_peak), intent(in) :: at(:)
     type(fuge_layer_peak), intent(inout) :: best
@@ -270,7 +272,7 @@ contains
     last = min(window(2), k + 1)
     if (any(at(first:last)%value > at(k)%value)) return
     if (upper_estimate(at(window(1):window(2)), at(k)%value) > (1.0_dp + SAME)*best%value) &
-      call maximise(grid, measure, at(first)%depth, at(last)%depth, at(k), best, info)
+      call maximise(grid, body, measure, at(first)%depth, at(last)%depth, at(k), best, info)
   end subroutine refine
 
   !> The first and the last of three depths of the layer of depth `k`, that one in the middle if it is not at a side of
@@ -325,8 +327,9 @@ contains
 
   !> The maximum between the depths `upper` and `lower` by R. P. Brent's method (Algorithms for Minimization without
   !> Derivatives, 1973, chapter 5), from `start` between them.
-  subroutine maximise(grid, measure, upper, lower, start, best, info)
+  subroutine maximise(grid, body, measure, upper, lower, start, best, info)
     type(layered_grid), intent(in) :: grid
+    type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: measure
     real(dp), intent(in) :: upper, lower
     type(fuge_layer_peak), intent(in) :: start
@@ -349,7 +352,7 @@ contains
       call choose_step(point%depth, point%value, low, high, tolerance, step, before)
       tried(1) = point(1)
       tried(1)%depth = point(1)%depth + sign(max(abs(step), tolerance), step)
-      call evaluate(grid, measure, tried, info)
+      call evaluate(grid, body, measure, tried, info)
       if (info%failed()) return
       if (tried(1)%value >= point(1)%value) then
         if (tried(1)%depth >= point(1)%depth) low = point(1)%depth
