@@ -25,7 +25,7 @@ module fuge_layered_halfspace_depths
 
   public :: fuge_layered_halfspace_displacement_grid, fuge_layered_halfspace_stress_grid
 
-  !> Components: the six of the stress, and the displacements along x, y and z.
+  !> Those of the six components of the stress, and of the displacements along x, y and z.
   logical, parameter :: KINDS(2, 9) = reshape([STRESS_KINDS, DISPLACEMENT_KINDS], [2, 9])
 
   !> Data of all depths.
