@@ -21,8 +21,6 @@ module fuge_depth_panels
   !> Between depths that are closer than this fraction of them linear interpolation is exact, and more nodes would be
   !> the same numbers.
   real(dp), parameter :: CLOSE = 1.0e-9_dp
-  !> The most octaves in a layer: more than a double can hold.
-  integer, parameter :: MOST_OCTAVES = 4096
 
   type :: depth_panel
     !> The layer; the panel begins at 2**octave times the depth of the layer's top.
@@ -103,7 +101,7 @@ contains
     is_same = .not. abs(a - b) > 0.0_dp
   end function is_same
 
-  !> The largest k for which 2**k times the depth of the layer's top is not below `depth`; 0 in the top layer.
+  !> The largest k >= 0 for which 2**k times the depth of the layer's top is not above `depth`; 0 in the top layer.
   pure function octave_of(stack, layer, depth) result(octave)
     type(layer_stack), intent(in) :: stack
     integer, intent(in) :: layer
@@ -113,7 +111,7 @@ contains
 
     octave = 0
     top = sum(stack%thickness(:layer - 1))
-    if (top > 0.0_dp .and. depth > top) octave = min(MOST_OCTAVES, int(log(depth/top)/log(2.0_dp)))
+    if (top > 0.0_dp .and. depth > top) octave = int((log(depth) - log(top))/log(2.0_dp))
   end function octave_of
 
   !> The panel of a depth, or the next number if there is none yet.

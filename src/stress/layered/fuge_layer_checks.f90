@@ -52,7 +52,7 @@ contains
     end do
   end subroutine find_layers
 
-  !> `which`: the numbers of those in the top layer. FUGE_ERR_MEMORY.
+  !> `in_top`: the numbers of the points, or depths, in the top layer. FUGE_ERR_MEMORY.
   subroutine points_in_top(layer, in_top, info)
     integer, intent(in) :: layer(:)
     integer, allocatable, intent(out) :: in_top(:)
@@ -81,8 +81,9 @@ contains
                 //'FUGE_MEAN, whose influence is the same')
   end subroutine refuse_hats
 
-  !> The points in the top layer, `which`, and room for their part and for all results, in_top are 0, (components,
-  !> points). FUGE_ERR_MEMORY.
+  !> The numbers `in_top` of the points in the top layer, and arrays for what a half-space gives there, `plain`
+  !> (components, points in the top layer), and for all results, `found` (components, points), which are 0.
+  !> FUGE_ERR_MEMORY.
   subroutine start_points(layer, components, in_top, plain, found, info)
     integer, intent(in) :: layer(:), components
     integer, allocatable, intent(out) :: in_top(:)

@@ -123,7 +123,7 @@ contains
   end subroutine check
 
   !> Add the stresses (3, points), or twice the shear modulus of the top layer times the displacements (2, points), of
-  !> in_top those in the top layer lack what a half-plane gives. FUGE_ERR_MEMORY.
+  !> which those in the top layer lack what a half-plane gives. FUGE_ERR_MEMORY.
   !>
   !> Ten arguments: the cells, the points, the results.
   subroutine add_layers(body, x, width, force, layer, px, pz, values, info, symmetric)

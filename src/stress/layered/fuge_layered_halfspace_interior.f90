@@ -106,7 +106,7 @@ contains
   end subroutine fuge_layered_halfspace_displacement
 
   !> Add the stresses (6, points), or twice the shear modulus of the top layer times the displacements (3, points), of
-  !> in_top those in the top layer lack what a half-space gives. FUGE_ERR_MEMORY.
+  !> which those in the top layer lack what a half-space gives. FUGE_ERR_MEMORY.
   !>
   !> Twelve arguments: the rectangles, the points, the results.
   subroutine add_layers(body, x, y, width_x, width_y, force, symmetric, layer, px, py, pz, values, info)
@@ -145,10 +145,12 @@ contains
     type(depth_mixture), intent(in) :: mixture
     integer, intent(in) :: count
     real(dp) :: component(count)
+    real(dp) :: across
 
     if (count == 6) then
-      component = [sums%value(mixture, OF_TT, PLAIN) + sums%value(mixture, OF_DIFFERENCE, CURVE_X), &
-                   sums%value(mixture, OF_TT, PLAIN) + sums%value(mixture, OF_DIFFERENCE, CURVE_Y), &
+      across = sums%value(mixture, OF_TT, PLAIN)
+      component = [across + sums%value(mixture, OF_DIFFERENCE, CURVE_X), &
+                   across + sums%value(mixture, OF_DIFFERENCE, CURVE_Y), &
                    sums%value(mixture, OF_ZZ, PLAIN), sums%value(mixture, OF_SLOPE, SLOPE_Y), &
                    sums%value(mixture, OF_SLOPE, SLOPE_X), sums%value(mixture, OF_DIFFERENCE, TWIST)]
       component = scale(component, sums%force_unit - 2*sums%unit)

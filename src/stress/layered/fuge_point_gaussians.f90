@@ -21,6 +21,7 @@ module fuge_point_gaussians
   real(dp), parameter :: FAR = 60.0_dp
   !> exp(-x**2) is less than rounding.
   real(dp), parameter :: NEGLIGIBLE = 6.3_dp
+  !> Terms of a series below this share are rounding.
   real(dp), parameter :: ROUNDING = 1.0e-17_dp
   !> Euler's constant.
   real(dp), parameter :: EULER = 0.57721566490153286_dp
