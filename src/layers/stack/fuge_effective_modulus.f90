@@ -30,13 +30,6 @@ module fuge_effective_modulus
   integer, parameter :: HIGHEST = 2*FUNCTIONS - 2, BEGIN = HIGHEST + 26
   real(dp), parameter :: LARGE_X = 16.0_dp
 
-  !> The waves of a body.
-  type, extends(wave_symbol) :: body_symbol
-    type(fuge_layered_body), pointer :: body => null()
-  contains
-    procedure :: wave_factor
-  end type body_symbol
-
 contains
 
   !> The effective modulus of a layered body under round contacts of given size.
@@ -56,11 +49,10 @@ contains
   !> Errors, `modulus` untouched: FUGE_ERR_CALL_ORDER before the `set` of body, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
   !> FUGE_ERR_WIDTH for a radius that is not positive, FUGE_ERR_OVERFLOW.
   subroutine fuge_find_effective_modulus(body, radius, modulus, info)
-    type(fuge_layered_body), intent(in), target :: body
+    type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: radius(:)
     real(dp), intent(inout) :: modulus(:)
     type(fuge_info), intent(out) :: info
-    type(body_symbol) :: symbol
     integer :: k
 
     if (.not. body%is_set()) then
@@ -73,9 +65,8 @@ contains
       call check_radius(radius(k), 'radius('//index_text(k)//')', info)
     end do
     if (info%failed()) return
-    symbol%body => body
     do k = 1, size(radius)
-      modulus(k) = body%e_star()/punch_factor(symbol, radius(k))
+      modulus(k) = body%e_star()/punch_factor(body, radius(k))
     end do
   end subroutine fuge_find_effective_modulus
 
@@ -241,13 +232,5 @@ contains
     end do
     wave(FUNCTIONS) = bessel(HIGHEST)
   end function from_orders
-
-  pure function wave_factor(self, q) result(factor)
-    class(body_symbol), intent(in) :: self
-    real(dp), intent(in) :: q
-    real(dp) :: factor
-
-    factor = self%body%factor_of_wave(q)
-  end function wave_factor
 
 end module fuge_effective_modulus

@@ -25,7 +25,7 @@ module fuge_layered_body_type
   real(dp), parameter :: POWER_ON_RIGID = 0.34_dp
 
   !> Two bodies in contact, of which one or both have layers.
-  type, public :: fuge_layered_body
+  type, extends(wave_symbol), public :: fuge_layered_body
     private
     type(layer_stack) :: first, second
     !> Shares of the two bodies, and of a half-space without layers, in the displacement by short waves; sum 1.
@@ -37,6 +37,7 @@ module fuge_layered_body_type
     procedure :: set
     procedure :: e_star
     procedure :: surface
+    procedure :: wave_factor
     procedure :: factor_of_wave
     procedure :: find_compliances
     procedure :: layers
@@ -48,13 +49,6 @@ module fuge_layered_body_type
     procedure :: is_set
   end type fuge_layered_body
 
-  !> T of the two bodies together.
-  type, extends(wave_symbol) :: contact_symbol
-    type(fuge_layered_body), pointer :: bodies => null()
-  contains
-    procedure :: wave_factor
-  end type contact_symbol
-
 contains
 
   !> Describe a body of layers, and the other one.
@@ -64,9 +58,8 @@ contains
   !> a rigid base. `bonded` (layers, default .true.): is the bottom of each layer bonded? Otherwise it slides without
   !> friction, and never comes off. `e_star_other`: E/(1 - nu**2) of the other body, a half-space; infinite, the
   !> default, if it is rigid. `other`: the other body if it has layers; it comes with no third one. If both are passed,
-  !> `other` counts. Errors, which leave the description as it was: FUGE_ERR_SIZE,
-  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_OVERFLOW, FUGE_ERR_CALL_ORDER for `other`
-  !> that is not set, FUGE_ERR_MEMORY.
+  !> `other` counts. Errors, which leave the description as it was: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH,
+  !> FUGE_ERR_MODULUS, FUGE_ERR_OVERFLOW, FUGE_ERR_CALL_ORDER for `other` that is not set, FUGE_ERR_MEMORY.
   subroutine set(self, thickness, young, poisson, info, bonded, e_star_other, other)
     class(fuge_layered_body), intent(inout) :: self
     real(dp), intent(in) :: thickness(:), young(:), poisson(:)
@@ -74,7 +67,8 @@ contains
     logical, intent(in), optional :: bonded(:)
     real(dp), intent(in), optional :: e_star_other
     class(fuge_layered_body), intent(in), optional :: other
-    type(fuge_layered_body), target :: new
+    type(fuge_layered_body) :: new
+    type(wave_mixture) :: mixture
     real(dp) :: compliance(2)
     integer :: stat
 
@@ -111,16 +105,17 @@ contains
     end if
     new%modulus = 1.0_dp/sum(compliance)
     new%share = compliance*new%modulus
-    call fit(new, info)
+    call fit(new, mixture, info)
     if (info%failed()) return
     call move_stack(new%first, self%first)
     call move_stack(new%second, self%second)
     self%share = new%share
     self%modulus = new%modulus
-    self%mixture%unit = new%mixture%unit
-    self%mixture%limit = new%mixture%limit
-    self%mixture%tail = new%mixture%tail
-    call move_alloc(new%mixture%weight, self%mixture%weight)
+    ! Without a copy of the weights, for which there may be no memory.
+    self%mixture%unit = mixture%unit
+    self%mixture%limit = mixture%limit
+    self%mixture%tail = mixture%tail
+    call move_alloc(mixture%weight, self%mixture%weight)
   end subroutine set
 
   !> Is it so large or small that products would overflow? Not if it is infinite.
@@ -267,19 +262,18 @@ contains
   end subroutine move_stack
 
   !> Fit the mixture to both bodies; no mixture if neither has layers. Error: FUGE_ERR_MEMORY.
-  subroutine fit(layers, info)
-    type(fuge_layered_body), intent(inout), target :: layers
+  subroutine fit(layers, mixture, info)
+    type(fuge_layered_body), intent(in) :: layers
+    type(wave_mixture), intent(inout) :: mixture
     type(fuge_info), intent(inout) :: info
-    type(contact_symbol) :: symbol
     real(dp) :: limit, longest, shortest
 
-    symbol%bodies => layers
     shortest = huge(shortest)
     longest = 0.0_dp
     limit = 0.0_dp
     call include_stack(layers%first, layers%share(1))
     call include_stack(layers%second, layers%share(2))
-    if (longest > 0.0_dp) call fit_mixture(symbol, shortest, longest, limit, layers%mixture, info)
+    if (longest > 0.0_dp) call fit_mixture(layers, shortest, longest, limit, mixture, info)
 
   contains
 
@@ -437,12 +431,13 @@ contains
     end do
   end subroutine find_compliances
 
+  !> `factor_of_wave` of one wave.
   pure function wave_factor(self, q) result(factor)
-    class(contact_symbol), intent(in) :: self
+    class(fuge_layered_body), intent(in) :: self
     real(dp), intent(in) :: q
     real(dp) :: factor
 
-    factor = self%bodies%factor_of_wave(q)
+    factor = self%factor_of_wave(q)
   end function wave_factor
 
 end module fuge_layered_body_type
