@@ -38,7 +38,9 @@ module fuge_depth_mixture
   !> Singular values below this fraction of the largest one are rounding.
   real(dp), parameter :: RANK_TOLERANCE = 1.0e-15_dp
   !> exp(-x**2) is less than rounding.
-  real(dp), parameter :: NEGLIGIBLE = 6.3_dp
+  real(dp), parameter, public :: NEGLIGIBLE = 6.3_dp
+  !> Euler's constant.
+  real(dp), parameter :: EULER = 0.57721566490153286_dp
 
   type, public :: depth_mixture
     !> The weights are those of k = first, first + 1, .., so many as `count`; there may be room for more (weights,
@@ -51,6 +53,7 @@ module fuge_depth_mixture
   contains
     procedure :: weight_of
     procedure :: sum_from
+    procedure :: datum_beyond
     procedure :: value_at
   end type depth_mixture
 
@@ -99,6 +102,17 @@ contains
         *exp(STEP*real(power*last - decay(j)*(next - last), dp) - real(power, dp)*log_of_unit)
     end do
   end function sum_from
+
+  !> What the limit of the weights of the lengths after number `last` adds to the displacement along z in plane strain,
+  !> over a load of 1/(2 sqrt(pi)), so that far away it would be zero at the distance `reach`.
+  pure function datum_beyond(self, last, reach) result(datum)
+    class(depth_mixture), intent(in) :: self
+    integer, intent(in) :: last
+    real(dp), intent(in) :: reach
+    real(dp) :: datum
+
+    datum = -self%beyond(1, OF_DOWN)/STEP*(log(2.0_dp) + STEP*real(last, dp) - log(reach) + 0.5_dp*STEP - 0.5_dp*EULER)
+  end function datum_beyond
 
   !> Fit `mixture` (m) to the body of `cut` (m) at each `depth` (m) >= 0, length, all of them in one layer; t and 1/q in
   !> the same unit. They share their lengths, and the matrix of the fit. Error: FUGE_ERR_MEMORY.

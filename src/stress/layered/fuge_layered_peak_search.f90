@@ -51,8 +51,8 @@ contains
   !> `measure` FUGE_MEASURE_VON_MISES or FUGE_MEASURE_TRESCA. Out: `peak`, the largest value below the centres of the
   !> cells: in all layers, on both sides of each interface, at the surface, and at all depths from a quarter of the
   !> smaller cell width on. Its relative error is at most 1e-9, or 1e-4 where the cell of the largest value changes at
-  !> that depth. The stress between the centres of cells may be larger by an error of the order of a cell. At the edge of
-  !> a flat punch, where the exact stress is infinite, the value depends on the grid.
+  !> that depth. The stress between the centres of cells may be larger by an error of the order of a cell. At the edge
+  !> of a flat punch, where the exact stress is infinite, the value depends on the grid.
   !>
   !> Ten arguments: the grid alone has four. Errors, `peak` untouched: those of `fuge_layered_halfspace_stress_grid`;
   !> FUGE_ERR_OPTION for `measure`; FUGE_ERR_OVERFLOW if no stress is finite.

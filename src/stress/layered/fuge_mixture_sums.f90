@@ -3,7 +3,7 @@
 module fuge_mixture_sums
   use fuge_cell_gaussians, only: circle_work, fill_gaussian_circle, fill_gaussian_places, fill_gaussian_waves
   use fuge_constants, only: PI
-  use fuge_depth_mixture, only: depth_mixture, OF_DOWN, POWERS, STEP
+  use fuge_depth_mixture, only: depth_mixture, NEGLIGIBLE, OF_DOWN, POWERS, STEP
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemm
   implicit none
@@ -11,13 +11,8 @@ module fuge_mixture_sums
 
   public :: bytes_of_sums
 
-  !> exp(-x**2) is less than rounding.
-  real(dp), parameter :: NEGLIGIBLE = 6.3_dp
   !> Gaussians longer than this many times all distances are the first term of their series in 1/t to rounding.
   real(dp), parameter :: FAR = 1.0e6_dp
-
-  !> Euler's constant.
-  real(dp), parameter :: EULER = 0.57721566490153286_dp
 
   !> What a direction needs: the factors of waves, values at cells of a circle without their mean, or at cells.
   integer, parameter, public :: WAVES_OF = 1, CIRCLE_OF = 2, PLACES_OF = 3
@@ -216,20 +211,11 @@ contains
     integer, intent(in) :: direction
     real(dp), intent(in) :: reach
     real(dp) :: displacement
-    real(dp) :: limit
 
-    limit = mixture%beyond(1, OF_DOWN)
-    displacement = sum_beyond(self, mixture, OF_DOWN, 0, limit) &
-                   - limit/STEP*(log(2.0_dp*last_length(self)/reach) + 0.5_dp*STEP - 0.5_dp*EULER)
+    displacement = sum_beyond(self, mixture, OF_DOWN, 0, mixture%beyond(1, OF_DOWN)) &
+                   + mixture%datum_beyond(self%first + size(self%along_x, 2) - 1, reach)
     displacement = displacement*self%spacing(direction)/(2.0_dp*sqrt(PI))
   end function line_datum
-
-  pure function last_length(sums) result(length)
-    type(mixture_sums), intent(in) :: sums
-    real(dp) :: length
-
-    length = exp(STEP*real(sums%first + size(sums%along_x, 2) - 1, dp))
-  end function last_length
 
   !> The sum over all longer lengths of the weights less `limit` times t**power, power <= 0.
   pure function sum_beyond(sums, mixture, function, power, limit) result(total)

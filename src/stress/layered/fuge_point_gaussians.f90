@@ -5,7 +5,7 @@
 !> their series, whose sums over all lengths are known.
 module fuge_point_gaussians
   use fuge_constants, only: PI
-  use fuge_depth_mixture, only: depth_mixture, OF_DOWN, POWERS, STEP
+  use fuge_depth_mixture, only: depth_mixture, NEGLIGIBLE, POWERS, STEP
   use fuge_kinds, only: dp
   use fuge_pressed_area, only: pressed_area
   implicit none
@@ -19,12 +19,8 @@ module fuge_point_gaussians
   !> greatest distance on.
   integer, parameter :: TERMS = 3
   real(dp), parameter :: FAR = 60.0_dp
-  !> exp(-x**2) is less than rounding.
-  real(dp), parameter :: NEGLIGIBLE = 6.3_dp
   !> Terms of a series below this share are rounding.
   real(dp), parameter :: ROUNDING = 1.0e-17_dp
-  !> Euler's constant.
-  real(dp), parameter :: EULER = 0.57721566490153286_dp
 
   !> Strips of a line or rectangles of an area, and their forces.
   type, public :: point_loads
@@ -279,10 +275,8 @@ contains
     type(depth_mixture), intent(in) :: mixture
     real(dp), intent(in) :: reach
     real(dp) :: displacement
-    real(dp) :: last
 
-    last = STEP*real(self%first + size(self%near, 1) - 1, dp)
-    displacement = -mixture%beyond(1, OF_DOWN)/STEP*(log(2.0_dp) + last - log(reach) + 0.5_dp*STEP - 0.5_dp*EULER) &
+    displacement = mixture%datum_beyond(self%first + size(self%near, 1) - 1, reach) &
                    *self%series(0, PLAIN)/(2.0_dp*sqrt(PI))
   end function line_datum
 
