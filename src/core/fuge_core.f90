@@ -24,9 +24,12 @@ module fuge_core
     FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE
   use fuge_path_type, only: fuge_path
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_proof_type, only: fuge_proof
+  use fuge_solution_proof, only: fuge_prove
   use fuge_solver_type, only: fuge_solver, fuge_solve_dense
   use fuge_status, only: fuge_info, fuge_status_text, FUGE_MESSAGE_LENGTH, FUGE_DONE, FUGE_WARN_RESIDUAL, &
     FUGE_WARN_NOT_UNIQUE, FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_PAIRS, FUGE_WARN_NO_CONTACT, FUGE_WARN_CASES, &
+    FUGE_WARN_NOT_PROVED, &
     FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, &
     FUGE_ERR_GRID, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, &
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_CALLBACK, &

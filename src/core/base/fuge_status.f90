@@ -32,6 +32,8 @@ module fuge_status
   integer, parameter, public :: FUGE_WARN_NO_CONTACT = 5
   !> Solved, but some load cases have no solution, or a warning.
   integer, parameter, public :: FUGE_WARN_CASES = 6
+  !> Nothing is proved of the solution, or not all: the message has the reason.
+  integer, parameter, public :: FUGE_WARN_NOT_PROVED = 7
   !> A size or an index is invalid, or arrays differ in length.
   integer, parameter, public :: FUGE_ERR_SIZE = -1
   !> An array is not contiguous; in C a pointer is NULL.
@@ -83,7 +85,7 @@ module fuge_status
 
   !> The range of the codes.
   integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_LAW
-  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_CASES
+  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_NOT_PROVED
 
   !> The text of each code, lowest first.
   character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
@@ -117,7 +119,8 @@ module fuge_status
     'done, but the forces may be far off', &
     'done, but pairs share a node', &
     'done, but no point touches and all gaps open', &
-    'done, but some load cases failed or have a warning']
+    'done, but some load cases failed or have a warning', &
+    'done, but the solution is not proved']
 
   character(len=*), parameter :: UNKNOWN_STATUS = 'unknown status'
 

@@ -56,11 +56,23 @@ module fuge_operator_type
     procedure :: kept_coarser => none_kept
     !> The same body, but forces and displacements of a window of its cells only.
     procedure :: window => no_window
+    !> Bounds of its eigenvalues and of the rounding of its products, by which solutions are proved.
+    procedure :: bounds => no_bounds
     !> The processes that share the points.
     procedure :: ranks => no_other_ranks
     !> Which rows of the grid each of them has.
     procedure :: first_rows => all_rows_here
   end type fuge_operator
+
+  !> What is certain of an operator; length per force.
+  type, public :: operator_bounds
+    !> Not above any eigenvalue of A on forces whose sum is zero, and on all forces. Unknown unless positive.
+    real(dp) :: least_balanced = 0.0_dp, least = 0.0_dp
+    !> Not below the 2-norm of A - datum.
+    real(dp) :: most = huge(1.0_dp)
+    !> How far a displacement from `apply` is off at most, as a 2-norm of all points relative to that of the forces.
+    real(dp) :: rounding = huge(1.0_dp)
+  end type operator_bounds
 
   abstract interface
     !> Number of candidate points n; 0 while the operator is not set.
@@ -225,6 +237,16 @@ contains
 
     if (self%points() < 0 .and. any(last < first)) allocate (part, source=self)
   end subroutine no_window
+
+  !> Nothing is certain by default. `status` as for `apply`.
+  subroutine no_bounds(self, bounds, status)
+    class(fuge_operator), intent(in) :: self
+    type(operator_bounds), intent(out) :: bounds
+    integer, intent(out) :: status
+
+    status = FUGE_DONE
+    if (self%points() < 0) bounds%most = 0.0_dp
+  end subroutine no_bounds
 
   !> Where ranks of MPI share the points, `points` and all arrays are those of this rank, `grid` is the whole one,
   !> and all ranks call a procedure together. Alone, as in this default, one process has them all.

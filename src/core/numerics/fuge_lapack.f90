@@ -4,8 +4,8 @@ module fuge_lapack
   implicit none
   private
 
-  public :: ddot, dgelsy, dgemm, dgemv, dgeqp3, dgesv, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotri, dpotrs, dpttrs, &
-    dsyev, dsymv, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
+  public :: ddot, dgelsy, dgemm, dgemv, dgeqp3, dgesv, dgetrf, dgetri, dorgqr, dpbtrf, dpbtrs, dpotrf, dpotri, &
+    dpotrs, dpttrs, dsyev, dsymv, dsyrk, dsytrf, dsytrs, dtrsm, dtrsv
 
   interface
     !> x.y.
@@ -52,6 +52,22 @@ module fuge_lapack
       real(dp), intent(inout) :: a(lda, *), b(ldb, *)
       integer, intent(out) :: ipiv(*), info
     end subroutine dgesv
+
+    !> LU factors of a matrix, with partial pivoting.
+    subroutine dgetrf(m, n, a, lda, ipiv, info)
+      import :: dp
+      integer, intent(in) :: m, n, lda
+      real(dp), intent(inout) :: a(lda, *)
+      integer, intent(out) :: ipiv(*), info
+    end subroutine dgetrf
+
+    !> The inverse from the LU factors.
+    subroutine dgetri(n, a, lda, ipiv, work, lwork, info)
+      import :: dp
+      integer, intent(in) :: n, lda, lwork, ipiv(*)
+      real(dp), intent(inout) :: a(lda, *), work(*)
+      integer, intent(out) :: info
+    end subroutine dgetri
 
     !> The first columns of Q from its reflectors.
     subroutine dorgqr(m, n, k, a, lda, tau, work, lwork, info)
