@@ -17,11 +17,34 @@ module fuge_grid_convolution
   use fuge_fft, only: allocate_values, fft_plan, release_buffer
   use fuge_grid_plan, only: grid_plan, return_rows, stored_waves, take_rows, taken_rows
   use fuge_kinds, only: wp => dp
+  use fuge_spectrum_bounds, only: spectrum_bounds
   use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_threads, only: run_in_threads, share, threads_here
   implicit none
   private
 
+  public :: find_bounds
+
   include 'fuge_grid_convolution.inc'
+
+  !> Bounds of the spectrum of a kernel that is set, on the circles of `plan`.
+  pure subroutine find_bounds(kernel, plan, bounds)
+    type(grid_kernel), intent(in) :: kernel
+    type(grid_plan), intent(in) :: plan
+    type(spectrum_bounds), intent(out) :: bounds
+    integer :: first, k
+
+    first = lbound(kernel%spectrum, 1)
+    do k = lbound(kernel%spectrum, 2), ubound(kernel%spectrum, 2)
+      if (k == lbound(kernel%spectrum, 2)) then
+        call bounds%add_waves(kernel%spectrum(first + 1:, k), 4)
+      else
+        call bounds%add_waves(kernel%spectrum(:, k), 4)
+      end if
+    end do
+    bounds%constant = kernel%spectrum(first, lbound(kernel%spectrum, 2))
+    bounds%squares = bounds%squares + bounds%constant**2
+    call bounds%scale_by(kernel%unit*circle_factor(plan, kernel%padded))
+  end subroutine find_bounds
 
 end module fuge_grid_convolution

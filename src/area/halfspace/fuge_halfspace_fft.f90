@@ -1,22 +1,28 @@
 !> The elastic half-space on a uniform grid of rectangles, by FFT: A of `fuge_halfspace_matrix`, or of a periodic
 !> surface, in O(n log n) operations and O(n) memory.
 module fuge_halfspace_fft
+  use fuge_grid_convolution, only: find_bounds
   use fuge_grid_plan, only: grid_plan
   use fuge_grid_operator_type, only: grid_operator
+  use fuge_halfplane_fft, only: FUGE_FREE
   use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, computes_later, count_coarser, &
-    halfspace_grid, is_large, least_magnitude, periodic, slope_of_waves
+    cyclic, halfspace_grid, is_large, least_magnitude, periodic, slope_of_waves
   use fuge_halfspace_kernels, only: bytes_in_slices, kernel_store, multiply_in_slices
   use fuge_halfspace_spectra, only: bytes_needed
   use fuge_kept_rows, only: drop_rows
   use fuge_kinds, only: dp, sp
   use fuge_memory, only: check_memory
   use fuge_number_text, only: text
-  use fuge_operator_type, only: fuge_operator
+  use fuge_operator_type, only: fuge_operator, operator_bounds
   use fuge_single_grid_plan, only: single_plan => grid_plan
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_MEMORY
+  use fuge_spectrum_bounds, only: spectrum_bounds, transform_rounding
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
   use fuge_wave_mixture, only: wave_mixture
   implicit none
   private
+
+  !> Eigenvalues of a periodic surface are off by at most this fraction.
+  real(dp), parameter :: WAVE_ERROR = 2.0_dp**(-46)
 
   !> Equal rectangles in a grid on a half-space: call `set`, then solve. It keeps the coarser grids of its
   !> solves, which takes a third of the memory again. Coefficients are computed when a solve first needs them, on a
@@ -55,6 +61,7 @@ module fuge_halfspace_fft
     procedure :: coarsen
     procedure :: free_rim
     procedure :: window
+    procedure :: bounds => surface_bounds
     procedure, private :: copy
     generic :: assignment(=) => copy
   end type fuge_halfspace_operator
@@ -405,5 +412,36 @@ contains
     call prepare(smaller, info)
     if (.not. info%failed()) call move_alloc(smaller, part)
   end subroutine window
+
+  !> Bounds of the eigenvalues of the circulant matrix that holds A, for coefficients off by at most eight units of
+  !> roundoff. Nothing is certain of layered bodies, of surfaces that are periodic in one direction, of windows of
+  !> periodic ones, and of free grids of more than 4096 x 4096 cells. `status`: 0, FUGE_ERR_CALL_ORDER or FUGE_ERR_MEMORY.
+  subroutine surface_bounds(self, bounds, status)
+    class(fuge_halfspace_operator), intent(in) :: self
+    type(operator_bounds), intent(out) :: bounds
+    integer, intent(out) :: status
+    type(spectrum_bounds) :: waves
+    real(dp) :: error, transform
+
+    status = merge(FUGE_DONE, FUGE_ERR_CALL_ORDER, self%points() > 0)
+    if (status /= FUGE_DONE .or. self%surface%body%is_set() .or. is_large(self%surface)) return
+    if (.not. (self%surface%boundary == FUGE_FREE .or. all(cyclic(self%surface)))) return
+    call require_kernels(self, status)
+    if (status /= FUGE_DONE) return
+    associate (kernel => self%store%kernels%influence)
+      call find_bounds(kernel, self%plan, waves)
+      transform = transform_rounding(self%plan%length(1)*merge(2, 1, kernel%padded(1))) &
+                  + transform_rounding(self%plan%length(2)*merge(2, 1, kernel%padded(2)))
+    end associate
+    if (.not. transform < 1.0_dp) return
+    bounds%most = max(waves%most, abs(waves%constant))
+    error = WAVE_ERROR*bounds%most
+    ! All coefficients of a free surface are positive, so that their sum is the largest eigenvalue.
+    if (self%surface%boundary == FUGE_FREE) error = 8.0_dp*epsilon(1.0_dp)*bounds%most + transform*waves%norm()
+    bounds%least_balanced = waves%least - error
+    bounds%least = min(waves%least, waves%constant) - error
+    bounds%most = bounds%most + error
+    bounds%rounding = (2.0_dp*transform + 8.0_dp*epsilon(1.0_dp))*bounds%most + error
+  end subroutine surface_bounds
 
 end module fuge_halfspace_fft

@@ -5,6 +5,7 @@
 !> depends on h only through the datum of the logarithm, which scales with h: the
 !> coefficients are pure numbers over e_star.
 module fuge_halfplane_fft
+  use fuge_constants, only: PI
   use fuge_convolution, only: convolution_kernel
   use fuge_grid_operator_type, only: grid_operator
   use fuge_halfplane_line, only: check_line, circle_of, coarsened, count_coarser, halfplane_line, least_magnitude, &
@@ -13,14 +14,18 @@ module fuge_halfplane_fft
   use fuge_kinds, only: dp
   use fuge_line_plan, only: line_plan
   use fuge_number_text, only: text
-  use fuge_operator_type, only: fuge_operator
+  use fuge_operator_type, only: fuge_operator, operator_bounds
   use fuge_point_chunks, only: chunk_count, chunked_pass
+  use fuge_spectrum_bounds, only: transform_rounding
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
   use fuge_wave_mixture, only: wave_mixture
   implicit none
   private
 
   public :: FUGE_FREE, FUGE_PERIODIC
+
+  !> Eigenvalues of a periodic surface are off by at most this fraction.
+  real(dp), parameter :: WAVE_ERROR = 2.0_dp**(-46)
 
   !> Equal cells side by side on a half-plane: call `set`, then solve. It keeps the coarser grids of its
   !> solves, which takes as much memory again.
@@ -48,6 +53,7 @@ module fuge_halfplane_fft
     procedure :: precondition_on_bed
     procedure :: grid
     procedure :: coarsen
+    procedure :: bounds => line_bounds
     procedure, private :: copy
     generic :: assignment(=) => copy
   end type fuge_halfplane_operator
@@ -277,5 +283,37 @@ contains
     call wider%set(line%cells, line%spacing, line%e_star, info, line%element, line%boundary, body=line%body)
     if (.not. info%failed()) call move_alloc(wider, coarse)
   end subroutine coarsen
+
+  !> Bounds of the eigenvalues of the circulant matrix that holds A, for coefficients off by at most eight units of
+  !> roundoff of their terms. Nothing is certain of layered bodies. `status`: 0 or FUGE_ERR_CALL_ORDER.
+  subroutine line_bounds(self, bounds, status)
+    class(fuge_halfplane_operator), intent(in) :: self
+    type(operator_bounds), intent(out) :: bounds
+    integer, intent(out) :: status
+    real(dp) :: circle, error, largest, transform
+
+    status = merge(FUGE_DONE, FUGE_ERR_CALL_ORDER, self%points() > 0)
+    if (status /= FUGE_DONE .or. self%line%body%is_set()) return
+    if (self%line%boundary == FUGE_PERIODIC) then
+      transform = transform_rounding(self%plan%length)
+      error = WAVE_ERROR*self%influence%bounds%most
+    else
+      transform = transform_rounding(2*self%plan%length)
+      circle = 2.0_dp*real(self%plan%length, dp)
+      largest = 2.0_dp/(PI*self%line%e_star)*(log(circle) + 3.0_dp)
+      error = 16.0_dp*epsilon(1.0_dp)*(largest + abs(self%datum_value))
+      bounds%datum_rounding = error
+      error = circle*error + transform*self%influence%bounds%norm()
+    end if
+    if (.not. transform < 1.0_dp) return
+    associate (waves => self%influence%bounds)
+      bounds%least_balanced = waves%least - error
+      if (self%line%boundary == FUGE_FREE) bounds%least = min(bounds%least_balanced, &
+                                                              waves%constant - error + circle*(self%datum_value &
+                                                                                               - bounds%datum_rounding))
+      bounds%most = max(waves%most, abs(waves%constant)) + error
+      bounds%rounding = (2.0_dp*transform + 8.0_dp*epsilon(1.0_dp))*bounds%most + error
+    end associate
+  end subroutine line_bounds
 
 end module fuge_halfplane_fft

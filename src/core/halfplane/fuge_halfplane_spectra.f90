@@ -1,5 +1,6 @@
 !> The spectra of a line of cells on a half-plane: those of its influence matrix and of its preconditioner.
 module fuge_halfplane_spectra
+  use fuge_compensated_sums, only: compensated_sum
   use fuge_convolution, only: convolution_kernel, transform_padded
   use fuge_halfplane_line, only: halfplane_line, FUGE_PERIODIC
   use fuge_kinds, only: dp
@@ -103,7 +104,7 @@ contains
     allocate (coefficient(0:half), even(0:half/2), odd(half/2), stat=status)
     if (status /= 0) return
     call fill(numbers, .false., coefficient)
-    mean = (coefficient(0) + coefficient(half) + 2.0_dp*sum(coefficient(1:half - 1)))/real(2*half, dp)
+    mean = (coefficient(0) + coefficient(half) + 2.0_dp*compensated_sum(coefficient(1:half - 1)))/real(2*half, dp)
     call numbers%split(mean, factor, datum)
     coefficient = factor*(coefficient - mean)
     call transform_padded(plan, coefficient, even, odd, status)

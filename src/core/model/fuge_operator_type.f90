@@ -68,10 +68,13 @@ module fuge_operator_type
   type, public :: operator_bounds
     !> Not above any eigenvalue of A on forces whose sum is zero, and on all forces. Unknown unless positive.
     real(dp) :: least_balanced = 0.0_dp, least = 0.0_dp
-    !> Not below the 2-norm of A - datum.
+    !> Not below the 2-norm of A - datum, which has no negative eigenvalue but for rounding, and the same diagonal
+    !> element for all points.
     real(dp) :: most = huge(1.0_dp)
     !> How far a displacement from `apply` is off at most, as a 2-norm of all points relative to that of the forces.
     real(dp) :: rounding = huge(1.0_dp)
+    !> How far `datum` is off at most.
+    real(dp) :: datum_rounding = 0.0_dp
   end type operator_bounds
 
   abstract interface

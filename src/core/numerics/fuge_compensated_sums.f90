@@ -9,7 +9,8 @@ module fuge_compensated_sums
   implicit none
   private
 
-  public :: add_column, add_terms, add_two_columns, bias_above, compensated_dot, difference_rounding, upper_half
+  public :: add_column, add_terms, add_two_columns, bias_above, compensated_dot, compensated_sum, &
+    difference_rounding, upper_half
 
   integer, parameter :: int64 = selected_int_kind(18)
   !> The bits of a real that its upper half keeps.
@@ -124,5 +125,23 @@ contains
     end do
     difference = high + low
   end function compensated_dot
+
+  !> The sum of values, off by at most the unit roundoff u of itself and 2 (n u)**2 of the sum of their magnitudes.
+  pure function compensated_sum(values) result(total)
+    real(dp), intent(in) :: values(:)
+    real(dp) :: total
+    real(dp) :: back, low, sum
+    integer :: k
+
+    total = 0.0_dp
+    low = 0.0_dp
+    do k = 1, size(values)
+      sum = total + values(k)
+      back = sum - total
+      low = low + ((total - (sum - back)) + (values(k) - back))
+      total = sum
+    end do
+    total = total + low
+  end function compensated_sum
 
 end module fuge_compensated_sums

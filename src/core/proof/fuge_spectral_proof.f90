@@ -2,10 +2,13 @@
 !>
 !> Forces f that keep to the law and balance the load belong to the problem whose gaps are changed by zeta, by which the
 !> gaps of f break the law. The law is monotone, so that with the solution f* and the least eigenvalue lambda on forces
-!> without a sum |f - f*| <= |zeta|/lambda, in 2-norms. One translation, free or prescribed, or none; the points may have
+!> without a sum |f - f*| <= |zeta|/lambda, in 2-norms, and |f - f*|_A <= |zeta|/sqrt(lambda) in that of the energy. A
+!> displacement is a product with a row of A, so that it changes by at most the latter times the root of the diagonal
+!> element. One translation, free or prescribed, or none; the points may have
 !> compliances, limits and upper stops.
 module fuge_spectral_proof
   use fuge_claimed_states, only: claim_point, point_claim, state_of
+  use fuge_compensated_sums, only: compensated_sum
   use fuge_kinds, only: dp
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator, operator_bounds
@@ -34,6 +37,10 @@ module fuge_spectral_proof
     real(dp) :: missing = 0.0_dp
     !> The 2-norm of the errors of the gaps that are not in `rounding`, and of the error of the forces.
     real(dp) :: product_error = 0.0_dp, force_error = huge(1.0_dp)
+    !> The same in the norm of the energy, and by how much displacements change with that.
+    real(dp) :: energy_error = huge(1.0_dp), displacement_error = huge(1.0_dp)
+    !> How far a point displaces itself under a unit force, A_kk, less the datum where the sum of the forces is given.
+    real(dp) :: own_displacement = huge(1.0_dp)
     !> The error of the motion.
     real(dp) :: motion_error = 0.0_dp
   end type balanced_solution
@@ -75,11 +82,12 @@ contains
       balanced%claimed_gap = solution%gap
       call balance(problem, solution, balanced)
       call find_gaps(operator, problem, solution, bounds, balanced, info)
+      if (.not. info%failed()) call find_own_displacement(operator, problem, bounds, balanced, info)
       if (info%failed()) return
       call bound_errors(problem, bounds, balanced, reason)
     end if
     if (reason == '') then
-      call fill_proof(problem, solution, bounds, balanced, proof)
+      call fill_proof(problem, solution, balanced, proof)
     else
       call report(info, FUGE_WARN_NOT_PROVED, reason)
     end if
@@ -142,7 +150,7 @@ contains
     end do
     if (.not. is_balanced(problem)) return
     load = problem%resultants()
-    lack = raised(abs(load(1) - sum_of(balanced%force)) + sum_error(balanced%force) &
+    lack = raised(abs(load(1) - compensated_sum(balanced%force)) + sum_error(balanced%force) &
                   + 2.0_dp*UNIT_ROUNDOFF*abs(load(1)), 4)
     balanced%missing = lack/real(max(count(balanced%inner), 1), dp)
     if (.not. any(balanced%inner) .and. lack > 0.0_dp) balanced%missing = huge(1.0_dp)
@@ -150,25 +158,7 @@ contains
     balanced%missing = min(raised(balanced%missing, 2), huge(1.0_dp))
   end subroutine balance
 
-  !> The sum of values, compensated (D. E. Knuth, The Art of Computer Programming 2, section 4.2.2).
-  pure function sum_of(values)
-    real(dp), intent(in) :: values(:)
-    real(dp) :: sum_of
-    real(dp) :: back, low, total
-    integer :: k
-
-    sum_of = 0.0_dp
-    low = 0.0_dp
-    do k = 1, size(values)
-      total = sum_of + values(k)
-      back = total - sum_of
-      low = low + ((sum_of - (total - back)) + (values(k) - back))
-      sum_of = total
-    end do
-    sum_of = sum_of + low
-  end function sum_of
-
-  !> How far that sum is off at most.
+  !> How far the compensated sum of values is off at most.
   pure function sum_error(values)
     real(dp), intent(in) :: values(:)
     real(dp) :: sum_error
@@ -195,11 +185,12 @@ contains
     motion = 0.0_dp
     if (problem%mode_count() == 1) motion = solution%motion(1)
     if (problem%mode_count() == 1 .and. .not. is_balanced(problem)) motion = problem%motion(1)
-    from_datum = operator%datum()*sum_of(balanced%force)
+    from_datum = operator%datum()*compensated_sum(balanced%force)
     constant = from_datum - motion(1)
     terms = 8.0_dp*UNIT_ROUNDOFF*(abs(from_datum) + abs(motion(1))) + abs(operator%datum()) &
-            *(2.0_dp*sum_error(balanced%force) + real(count(balanced%inner), dp)*balanced%missing)
-    balanced%motion_error = raised(terms, 8)
+            *(2.0_dp*sum_error(balanced%force) + real(count(balanced%inner), dp)*balanced%missing) &
+            + bounds%datum_rounding*sum(abs(balanced%force))
+    balanced%motion_error = raised(terms, size(balanced%force) + 8)
     do k = 1, size(balanced%gap)
       associate (gap => balanced%gap(k), rounding => balanced%rounding(k))
         rounding = 4.0_dp*UNIT_ROUNDOFF*(abs(balanced%initial(k)) + abs(gap) + abs(constant))
@@ -218,13 +209,36 @@ contains
                                     *sqrt(real(count(balanced%inner), dp)), 6) + tiny(1.0_dp)
   end subroutine find_gaps
 
+  !> One product with a unit force gives the displacement of a point by itself.
+  subroutine find_own_displacement(operator, problem, bounds, balanced, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(operator_bounds), intent(in) :: bounds
+    type(balanced_solution), intent(inout) :: balanced
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: displacement(:), force(:)
+    integer :: stat
+
+    allocate (force(size(balanced%force)), displacement(size(balanced%force)), stat=stat)
+    call require_memory(stat, 'displacements of', size(balanced%force), 'points', info)
+    if (stat /= 0) return
+    force = 0.0_dp
+    force(1) = 1.0_dp
+    call multiply(operator, force, displacement, info)
+    if (info%failed()) return
+    balanced%own_displacement = raised(max(displacement(1), 0.0_dp) + bounds%rounding, 2)
+    if (.not. is_balanced(problem)) balanced%own_displacement = raised(balanced%own_displacement &
+                                                                       + max(operator%datum(), 0.0_dp) &
+                                                                       + bounds%datum_rounding, 3)
+  end subroutine find_own_displacement
+
   !> The error of the forces and of the motion.
   subroutine bound_errors(problem, bounds, balanced, reason)
     type(fuge_problem), intent(in) :: problem
     type(operator_bounds), intent(in) :: bounds
     type(balanced_solution), intent(inout) :: balanced
     character(len=:), allocatable, intent(inout) :: reason
-    real(dp) :: apart, from_mean, norm
+    real(dp) :: apart, from_mean, moved, norm
     integer :: certain, k
 
     norm = 0.0_dp
@@ -232,7 +246,11 @@ contains
       norm = norm + (violation(balanced, k) + balanced%rounding(k))**2
     end do
     norm = raised(sqrt(raised(norm, size(balanced%gap) + 6)), 2)
-    balanced%force_error = raised((norm + balanced%product_error)/least_of(problem, bounds), 4)
+    norm = norm + balanced%product_error
+    balanced%force_error = raised(norm/least_of(problem, bounds), 4)
+    balanced%energy_error = raised(norm/sqrt(least_of(problem, bounds)), 5)
+    balanced%displacement_error = raised(min(balanced%energy_error*sqrt(balanced%own_displacement), &
+                                             bounds%most*balanced%force_error), 4)
     if (.not. balanced%force_error <= sqrt(huge(1.0_dp)) .or. .not. balanced%missing < huge(1.0_dp)) then
       reason = 'no point in contact is far enough from its limits to take what the forces lack of the load'
       return
@@ -252,9 +270,10 @@ contains
       return
     end if
     from_mean = raised(from_mean/real(certain, dp), size(balanced%gap) + 8)
-    balanced%motion_error = raised(balanced%motion_error + from_mean + (bounds%most*balanced%force_error &
-                                                                        + balanced%product_error) &
-                                   /sqrt(real(certain, dp)), 8)
+    moved = min(balanced%displacement_error, bounds%most*balanced%force_error/sqrt(real(certain, dp)), &
+                balanced%energy_error*sqrt(bounds%most/real(certain, dp)))
+    balanced%motion_error = raised(balanced%motion_error + from_mean + moved &
+                                   + balanced%product_error/sqrt(real(certain, dp)), 8)
   end subroutine bound_errors
 
   !> How far the gap of point `k` breaks the law at most, but for its rounding.
@@ -285,16 +304,15 @@ contains
     end associate
   end function force_is_certain
 
-  subroutine fill_proof(problem, solution, bounds, balanced, proof)
+  subroutine fill_proof(problem, solution, balanced, proof)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
-    type(operator_bounds), intent(in) :: bounds
     type(balanced_solution), intent(in) :: balanced
     type(fuge_proof), intent(inout) :: proof
     real(dp) :: error, moved
     integer :: k
 
-    moved = raised(bounds%most*balanced%force_error + balanced%product_error, 3)
+    moved = raised(balanced%displacement_error + balanced%product_error, 3)
     if (is_balanced(problem)) moved = raised(moved + balanced%motion_error, 2)
     do k = 1, size(balanced%gap)
       error = abs(balanced%claimed_force(k) - balanced%force(k)) + balanced%force_error

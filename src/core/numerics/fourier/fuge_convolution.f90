@@ -18,6 +18,7 @@ module fuge_convolution
   use fuge_kinds, only: dp
   use fuge_line_plan, only: line_plan
   use fuge_pair_factors, only: pair_factors, soften
+  use fuge_spectrum_bounds, only: spectrum_bounds
   use fuge_split_convolution, only: convolve_split, order_factors, order_odd_factors
   use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_unit_roots, only: fill_roots
@@ -36,6 +37,8 @@ module fuge_convolution
     !> On a circle of 2N cells: the numbers 1, 5, .. of the spectrum, and cos and sin of pi j/N, (2, N/2), unless it is
     !> split.
     real(dp), allocatable, private :: odd_factors(:), twist(:, :)
+    !> Of the spectrum, which the factors do not show.
+    type(spectrum_bounds) :: bounds
   contains
     procedure :: set_cyclic
     procedure :: set_padded
@@ -74,6 +77,9 @@ contains
       return
     end if
     self%length = length
+    self%bounds = spectrum_bounds(constant=spectrum(0), squares=spectrum(0)**2)
+    call self%bounds%add_waves(spectrum(1:), 2)
+    call self%bounds%scale_by(real(length, dp))
     if (rows > 0) then
       call order_factors(rows, columns, spectrum, self%factors)
     else if (mod(length, 2) == 0) then
@@ -108,6 +114,9 @@ contains
       self%length = 0
       return
     end if
+    ! Those of a circle that is twice as long are divided by that.
+    call self%bounds%scale_by(2.0_dp)
+    call self%bounds%add_waves(odd*(2.0_dp*real(length, dp)), 2)
     if (rows > 0) then
       call order_odd_factors(rows, columns, 2.0_dp*odd, self%odd_factors)
     else
@@ -188,6 +197,7 @@ contains
       self%odd_factors(:) = source%odd_factors
       self%twist(:, :) = source%twist
     end if
+    self%bounds = source%bounds
     self%length = source%length
   end subroutine copy_from
 
@@ -208,6 +218,7 @@ contains
 
     call clear(self)
     self%length = source%length
+    self%bounds = source%bounds
     if (allocated(source%factors)) call move_alloc(source%factors, self%factors)
     if (allocated(source%odd_factors)) call move_alloc(source%odd_factors, self%odd_factors)
     if (allocated(source%twist)) call move_alloc(source%twist, self%twist)
