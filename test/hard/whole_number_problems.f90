@@ -140,7 +140,8 @@ contains
     do k = 1, numbers%n
       if (general) call draw_law(seed, k, numbers)
       call draw_state(seed, k, numbers)
-      if (ties .and. chance(seed, 0.4_dp)) call put_on_border(k, numbers)
+      if (.not. ties) cycle
+      if (chance(seed, 0.4_dp)) call put_on_border(k, numbers)
     end do
   end subroutine draw_states
 
@@ -173,7 +174,9 @@ contains
       numbers%opening(k) = one_of(seed, 400) - 200
     else if (chance(seed, 0.6_dp)) then
       numbers%force(k) = one_of(seed, 999)
-      if (least < 0 .and. chance(seed, 0.5_dp)) numbers%force(k) = -numbers%force(k)
+      if (least < 0) then
+        if (chance(seed, 0.5_dp)) numbers%force(k) = -numbers%force(k)
+      end if
       if (numbers%force(k) < 0) numbers%opening(k) = numbers%play(k)
       numbers%strict(k) = numbers%force(k) > least .and. numbers%force(k) < most
       if (numbers%strict(k)) return

@@ -15,9 +15,6 @@ module fuge_rounding_bounds
   real(dp), parameter, public :: UNIT_ROUNDOFF = 0.5_dp*epsilon(1.0_dp)
   !> More than all that underflow can change in a sum of scaled numbers.
   real(dp), parameter, public :: LEAST = 2.0_dp**(-960)
-  !> Digits of compensated sums: they are off by less than n of these units of the sum of their terms (see
-  !> `fuge_compensated_sums`), for n up to 2**20.
-  real(dp), parameter, public :: COMPENSATED_UNIT = 2.0_dp**(-75)
 
 contains
 

@@ -7,12 +7,11 @@
 !> hold in the rows of W, e = 0 elsewhere, and c changes by A e - R e_q - r in the other rows.
 module fuge_set_enclosure
   use fuge_claimed_states, only: point_claim
-  use fuge_compensated_sums, only: add_column, add_terms, bias_above, compensated_dot
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemv
-  use fuge_rounding_bounds, only: absolute_product, absolute_sums, gamma_bound, raised, COMPENSATED_UNIT, LEAST, &
-    UNIT_ROUNDOFF
+  use fuge_rounding_bounds, only: absolute_product, absolute_sums, gamma_bound, raised, UNIT_ROUNDOFF
   use fuge_scaled_contact, only: scaled_contact
+  use fuge_triple_sums, only: triple_sums
   use fuge_verified_inverse, only: verified_inverse
   implicit none
   private
@@ -71,7 +70,8 @@ contains
     is_proved = inverse%is_proved
     if (stat /= 0 .or. .not. is_proved) return
     deallocate (matrix)
-    call find_residual(contact, enclosure%force, enclosure%gap, residual, error)
+    call find_residual(contact, enclosure%force, enclosure%gap, residual, error, stat)
+    if (stat /= 0) return
     associate (unknowns => [enclosure%place, n + enclosure%motion_place])
       call inverse%enclose(residual(unknowns), error(unknowns), middle, radius)
     end associate
@@ -98,36 +98,39 @@ contains
     end do
   end subroutine fill_matrix
 
-  !> What is left of the equations by `force` and `gap` (n): `residual` (n + m), known up to `error`.
-  subroutine find_residual(contact, force, gap, residual, error)
+  !> What is left of the equations by `force` and `gap` (n): `residual` (n + m), known up to `error`. `stat` is not 0
+  !> without memory.
+  subroutine find_residual(contact, force, gap, residual, error, stat)
     type(scaled_contact), intent(in) :: contact
     real(dp), intent(in), contiguous :: force(:), gap(:)
     real(dp), intent(out), contiguous :: residual(:), error(:)
-    real(dp) :: bias(contact%points), high(contact%points), low(contact%points), terms(contact%points + contact%motions)
-    integer :: j, k, m, n
+    integer, intent(out) :: stat
+    real(dp) :: terms(contact%points + contact%motions)
+    type(triple_sums) :: of_motions, of_points
+    integer :: j
 
-    n = contact%points
-    m = contact%motions
     call find_terms(contact, force, gap, terms)
-    do k = 1, n
-      bias(k) = bias_above(terms(k))
-    end do
-    high = bias
-    low = -contact%diagonal_rest*force
-    call add_terms(gap, high, low)
-    call add_terms(-contact%gap, high, low)
-    do j = 1, n
-      if (abs(force(j)) > 0.0_dp) call add_column(contact%matrix(:, j), -force(j), high, low)
-    end do
-    do j = 1, m
-      call add_column(contact%modes(:, j), contact%motion(j), high, low)
-    end do
-    residual(:n) = (high - bias) + low
-    do j = 1, m
-      residual(n + j) = compensated_dot(contact%resultant(j), [contact%modes(:, j), contact%stiffness(j)], &
-                                        [force, contact%motion(j)])
-    end do
-    error = raised(UNIT_ROUNDOFF*abs(residual) + real(n + m + 16, dp)*COMPENSATED_UNIT*terms, 3) + LEAST
+    associate (n => contact%points)
+      call of_points%start(terms(:n), stat)
+      if (stat == 0) call of_motions%start(terms(n + 1:), stat)
+      if (stat /= 0) return
+      call of_points%add(gap)
+      call of_points%add(-contact%gap)
+      do j = 1, n
+        if (abs(force(j)) > 0.0_dp) call of_points%add_products(contact%matrix(:, j), -force(j))
+      end do
+      do j = 1, n
+        if (abs(contact%diagonal_rest(j)) > 0.0_dp) call of_points%add_dot(j, contact%diagonal_rest(j:j), -force(j:j))
+      end do
+      do j = 1, contact%motions
+        call of_points%add_products(contact%modes(:, j), contact%motion(j))
+        call of_motions%add_dot(j, contact%modes(:, j), -force)
+        call of_motions%add_dot(j, contact%stiffness(j:j), -contact%motion(j:j))
+      end do
+      call of_motions%add(contact%resultant)
+      call of_points%finish(residual(:n), error(:n))
+      call of_motions%finish(residual(n + 1:), error(n + 1:))
+    end associate
   end subroutine find_residual
 
   !> Upper bounds of the sums of the magnitudes of the terms of each equation, (n + m).
