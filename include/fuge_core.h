@@ -29,6 +29,7 @@ enum {
   FUGE_WARN_PAIRS = 4,             /* done, but pairs share a node */
   FUGE_WARN_NO_CONTACT = 5,        /* done, but no point touches and all gaps open */
   FUGE_WARN_CASES = 6,             /* done, but some load cases failed or have a warning */
+  FUGE_WARN_NOT_PROVED = 7,        /* done, but the solution is not proved */
   FUGE_ERR_SIZE = -1,              /* a size or an index is invalid, or arrays differ in length:
                                       n < 1, lda < n, a range beyond the last entry */
   FUGE_ERR_POINTER = -2,           /* a required pointer is NULL, or an array is not contiguous */
@@ -602,6 +603,25 @@ int fuge_get_derivative(const fuge_solver *s, const double *gap_change, double l
  * free motions and of prescribed motions, motion (m) the changes of all motions. */
 int fuge_get_derivatives(const fuge_solver *s, const double *gap_change, const double *load_change,
                          double *force, double *gap, double *motion);
+
+/* Bounds of the error of the last solution.  They are theorems about the data as they are stored,
+ * rounding included: the exact solution of the problem is within them.
+ *   force_bound   out  n, of |force - exact force|; force
+ *   gap_bound     out  n, of |gap - exact gap|; length
+ *   motion_bound  out  m, of |motion - exact motion|, 0 for a prescribed one; length for a
+ *                      translation
+ *   proved        out  n, 1 where it is proved that the point has the state of fuge_get_states and
+ *                      is not on the border to another one, else 0
+ * Each of the four may be NULL.  By a matrix any problem, in the time of one to three solves from
+ * cold and with memory for three copies of the matrix; its lower triangle counts.  By a
+ * half-plane or half-space on a grid one translation, free or prescribed, for the exact
+ * coefficients of the elements, by one product.  FUGE_DONE with a message in the solver: all is
+ * bounded, but the states of some points are not proved.  FUGE_WARN_NOT_PROVED: the message says
+ * why bounds are infinite, HUGE_VAL; so is each one by another operator.  The solution stays.
+ * FUGE_ERR_CALL_ORDER as above, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED where ranks share the
+ * points. */
+int fuge_prove(const fuge_solver *s, double *force_bound, double *gap_bound,
+               double *motion_bound, int *proved);
 
 /* Report of the last fuge_solve, failed or not; FUGE_ERR_CALL_ORDER before the first. */
 int fuge_get_info(const fuge_solver *s, fuge_info *info);

@@ -28,6 +28,7 @@ Solving: gaps and a load, a prescribed approach, or several rigid motions
 
     solve(operator, gap, load)              one problem; the result is a Contact with its Info
     Solver(operator)                        one solve after the other; a Derivative, and the History of the tableau
+    Solver.prove, solve(prove=True)         bounds of the error of each number: a Proof
     envelope(values)                        the Envelope of load cases, which Solver and Body solve: Cases
     load_path(alpha, gap, load)             all loads at which a point changes its PointState: a Path
     contact_edges(x, width, force, element) edges finer than the grid: ContactEdges, each of an EdgeKind
@@ -81,7 +82,7 @@ What can go wrong: each error and warning has a Status and a message that says h
     Error: InputError, MatrixError, EquilibriumError, LimitError, UnsupportedError, CallOrderError, FileError,
         OutOfMemoryError, CallbackError, CancelledError
     Warning: ResidualWarning, NotUniqueWarning, IllConditionedWarning, GridWarning, PairsWarning,
-        NoContactWarning, CasesWarning
+        NoContactWarning, CasesWarning, NotProvedWarning
 """
 
 # "as" exports a name, as __all__ would; but with that help(fuge) would have the whole text of each.
@@ -107,6 +108,7 @@ from fuge.errors import (
     LimitError as LimitError,
     MatrixError as MatrixError,
     NoContactWarning as NoContactWarning,
+    NotProvedWarning as NotProvedWarning,
     NotUniqueWarning as NotUniqueWarning,
     OutOfMemoryError as OutOfMemoryError,
     PairsWarning as PairsWarning,
@@ -189,6 +191,7 @@ from fuge.operators import (
 )
 from fuge.pairs import ContactPairs as ContactPairs, Surface as Surface
 from fuge.path import Path as Path, PointState as PointState, load_path as load_path
+from fuge.proof import Proof as Proof
 from fuge.smooth import (
     RoundContact as RoundContact,
     SmoothContact as SmoothContact,

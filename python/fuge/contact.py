@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from fuge.cells import Cells
 from fuge.errors import Status, error
+from fuge.proof import Proof
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,9 @@ class Contact:
         What the library remarks on the solution; mostly empty.
     cells : Cells or None
         The cells of the operator, if its points are equal cells.
+    proof : Proof or None
+        Bounds of the errors of forces, gaps and motions, if :func:`solve` was asked for them by ``prove=True``;
+        :meth:`Solver.prove` gives them otherwise.
     """
 
     force: NDArray[np.float64]
@@ -77,6 +81,7 @@ class Contact:
     info: Info
     message: str
     cells: Cells | None = None
+    proof: Proof | None = None
 
     @property
     def pressure(self) -> NDArray[np.float64]:

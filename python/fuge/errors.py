@@ -26,6 +26,7 @@ class Status(Constants):
     WARN_PAIRS = auto()
     WARN_NO_CONTACT = auto()
     WARN_CASES = auto()
+    WARN_NOT_PROVED = auto()
     ERR_SIZE = auto()
     ERR_POINTER = auto()
     ERR_NOT_FINITE = auto()
@@ -159,6 +160,10 @@ class CasesWarning(Warning):
     """Some load cases failed or have a warning; the others have their solutions."""
 
 
+class NotProvedWarning(Warning):
+    """Bounds of the error of a solution are infinite, because they cannot be proved; the solution stays as it is."""
+
+
 class GridWarning(Warning):
     """The contact reaches the rim of its grid: unless the bodies end there, the grid is too small.
 
@@ -188,6 +193,7 @@ _WARNINGS: dict[Status, type[Warning]] = {
     Status.WARN_PAIRS: PairsWarning,
     Status.WARN_NO_CONTACT: NoContactWarning,
     Status.WARN_CASES: CasesWarning,
+    Status.WARN_NOT_PROVED: NotProvedWarning,
 }
 
 _PACKAGE = str(Path(__file__).parent)

@@ -76,7 +76,7 @@ class Docstrings(unittest.TestCase):
 
     def test_examples(self):
         parser, runner = doctest.DocTestParser(), doctest.DocTestRunner()
-        for item in (fuge, fuge.solve, fuge.solve_round_powers):
+        for item in (fuge, fuge.solve, fuge.Solver.prove, fuge.solve_round_powers):
             test = parser.get_doctest(inspect.getdoc(item), {"fuge": fuge}, item.__name__, None, None)
             self.assertTrue(test.examples)
             self.assertEqual(runner.run(test).failed, 0, item.__name__)

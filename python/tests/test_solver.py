@@ -473,6 +473,96 @@ class Solvers(unittest.TestCase):
         self.assertEqual(bad, [])
 
 
+class Proofs(unittest.TestCase):
+    """Bounds of the error, of what the solution is and of what cannot be proved."""
+
+    def solved(self, alpha=ALPHA, gap=GAP, load=2.0):
+        solver = fuge.Solver(np.array(alpha))
+        solver.set_gap(gap)
+        solver.set_load(load)
+        return solver, solver.solve()
+
+    def test_two_nodes(self):
+        solver, contact = self.solved()
+        proof = solver.prove()
+        for bound, exact, found in [
+            (proof.force_bound, [2.0, 0.0], contact.force),
+            (proof.motion_bound, [0.4], contact.motion),
+            (proof.gap_bound, [0.0, 0.8], contact.gap),
+        ]:
+            self.assertEqual(bound.shape, found.shape)
+            self.assertTrue((bound >= 0.0).all() and (bound < 1e-15).all())
+            # The exact numbers of the decimal data are rounded once more.
+            self.assertTrue((np.abs(found - exact) <= bound + 1e-16).all())
+        self.assertEqual(proof.proved.dtype, bool)
+        self.assertTrue(proof.proved.all() and proof.bounded)
+        self.assertEqual(proof.message, "")
+        low, high = proof.largest_force
+        self.assertTrue(2.0 - 1e-14 < low < 2.0 < high < 2.0 + 1e-14)
+        self.assertRegex(repr(proof), "<Proof: forces within .*, 2 of 2 states, largest force 2 to 2>")
+
+    def test_shapes_are_those_of_the_gaps(self):
+        alpha = 0.1 * np.eye(6) + 0.1
+        solver = fuge.Solver(alpha)
+        solver.set_gap(np.linspace(0.0, 0.5, 6))
+        solver.set_modes(np.column_stack([np.ones(6), np.arange(6.0)]), [3.0, 5.0])
+        solver.solve()
+        proof = solver.prove()
+        shapes = [bound.shape for bound in (proof.force_bound, proof.gap_bound, proof.motion_bound, proof.proved)]
+        self.assertEqual(shapes, [(6,), (6,), (2,), (6,)])
+
+    def test_one_call(self):
+        self.assertIsNone(fuge.solve(ALPHA, GAP, 2.0).proof)
+        contact = fuge.solve(ALPHA, GAP, approach=0.4, prove=True)
+        np.testing.assert_array_equal(contact.force, fuge.solve(ALPHA, GAP, approach=0.4).force)
+        np.testing.assert_array_equal(contact.proof.motion_bound, [0.0])
+        self.assertTrue(contact.proof.bounded)
+        other = pickle.loads(pickle.dumps(contact))
+        np.testing.assert_array_equal(other.proof.gap_bound, contact.proof.gap_bound)
+
+    def test_a_border(self):
+        # The second point just touches.
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            proof = fuge.solve(ALPHA, [0.0, 0.2], 2.0, prove=True).proof
+        np.testing.assert_array_equal(proof.proved, [True, False])
+        self.assertTrue(proof.bounded)
+        self.assertRegex(proof.message, "the first is point 1$")
+
+    def test_points_in_one_place(self):
+        with self.assertWarns(fuge.NotUniqueWarning):
+            solver, contact = self.solved(np.ones((2, 2)), [0.0, 0.0])
+        with self.assertWarnsRegex(fuge.NotProvedWarning, "positive definite") as caught:
+            proof = solver.prove()
+        self.assertEqual(caught.warning.status, fuge.Status.WARN_NOT_PROVED)
+        self.assertEqual(caught.filename, __file__)
+        self.assertEqual(proof.message, caught.warning.message)
+        self.assertFalse(proof.bounded or proof.proved.any())
+        self.assertTrue(np.isinf(proof.force_bound).all() and np.isinf(proof.motion_bound).all())
+        self.assertEqual(proof.largest_force, (-np.inf, np.inf))
+        # The solution is still there.
+        np.testing.assert_allclose(solver.derivative(load_change=1.0).motion, [1.0])
+        self.assertAlmostEqual(contact.approach, 2.0)
+
+    def test_a_function_proves_nothing(self):
+        operator = fuge.CallbackOperator(2, lambda force: ALPHA @ force)
+        with self.assertWarns(fuge.NotProvedWarning):
+            contact = fuge.solve(operator, GAP, 2.0, prove=True)
+        self.assertFalse(contact.proof.bounded)
+        np.testing.assert_allclose(contact.force, [2, 0], atol=1e-9)
+
+    def test_call_order(self):
+        solver, _ = self.solved()
+        solver.prove()
+        solver.set_load(1.0)
+        self.assertRaisesRegex(fuge.CallOrderError, "call solve", solver.prove)
+        solver.solve()
+        self.assertTrue(solver.prove().bounded)
+        solver.reset()
+        self.assertRaises(fuge.CallOrderError, solver.prove)
+        self.assertRaises(fuge.CallOrderError, fuge.Solver(ALPHA).prove)
+
+
 class Copies(unittest.TestCase):
     """Objects in the memory of the library are neither copied nor pickled."""
 

@@ -1,4 +1,4 @@
-!> C bindings, section "results": what the last solve found.
+!> C bindings, section "results": what the last solve found, and what is proved of it.
 !>
 !> A getter that fails leaves its message in the solver; one that succeeds leaves the message of
 !> the solve, which may be a warning.
@@ -6,11 +6,13 @@ module fuge_c_results
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_associated, c_f_pointer
   use fuge_c_arrays, only: give
   use fuge_c_solver, only: find_solver, solver_handle
-  use fuge_c_types, only: give_info, give_message, report_failure, require_pointer
+  use fuge_c_types, only: give_info, give_message, report_failure, report_to_handle, require_pointer
   use fuge_number_text, only: text
   use fuge_problem_type, only: fuge_solution
   use fuge_kinds, only: dp
   use fuge_point_space, only: point_space
+  use fuge_proof_type, only: fuge_proof
+  use fuge_solution_proof, only: fuge_prove
   use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, &
     FUGE_ERR_SIZE
   implicit none
@@ -140,6 +142,27 @@ contains
     call give(change%motion, motion)
   end function differentiate
 
+  !> Bounds of the error of the last solution, see `fuge_prove`. It does work of its own, so the message is its own too.
+  function c_prove(solver, force_bound, gap_bound, motion_bound, proved) bind(c, name='fuge_prove') result(status)
+    type(c_ptr), intent(in), value :: solver, force_bound, gap_bound, motion_bound, proved
+    integer(c_int) :: status
+    type(solver_handle), pointer :: handle
+    type(fuge_proof) :: proof
+    type(fuge_info) :: info
+
+    call find_solver(solver, handle, info)
+    if (.not. info%failed()) call require_solution(handle, info)
+    if (.not. info%failed()) then
+      call fuge_prove(handle%operator%operator, handle%problem, handle%solution, proof, info)
+    end if
+    status = report_to_handle(info, handle)
+    if (info%failed()) return
+    call give(proof%force_bound, force_bound)
+    call give(proof%gap_bound, gap_bound)
+    call give(proof%motion_bound, motion_bound)
+    call give(merge(1, 0, proof%state_proved), proved)
+  end function c_prove
+
   function c_get_info(solver, destination) bind(c, name='fuge_get_info') result(status)
     type(c_ptr), intent(in), value :: solver, destination
     integer(c_int) :: status
@@ -233,11 +256,17 @@ contains
 
     call find_solver(solver, handle, info)
     call require_pointer(destination, name, info)
-    if (.not. info%failed()) then
-      if (.not. handle%solved) call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution of the present problem: ' &
-                                           //'call fuge_solve and look at its status')
-    end if
+    if (.not. info%failed()) call require_solution(handle, info)
     status = report_failure(info, handle)
   end function find_solution
+
+  !> FUGE_ERR_CALL_ORDER without a solution of the present problem.
+  pure subroutine require_solution(handle, info)
+    type(solver_handle), intent(in) :: handle
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. handle%solved) call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution of the present problem: ' &
+                                         //'call fuge_solve and look at its status')
+  end subroutine require_solution
 
 end module fuge_c_results

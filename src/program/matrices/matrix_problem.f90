@@ -4,11 +4,11 @@ module matrix_problem
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use command_line, only: arguments, refuse
   use contact_table, only: write_contact, write_displacements
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_solution, FUGE_ERR_MODES
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_proof, fuge_solution, FUGE_ERR_MODES
   use matrix_body, only: elastic_body
   use matrix_files, only: read_square, read_vector, read_modes
   use number_words, only: number_text, read_integer, read_real
-  use problem_solution, only: solve, take_warning
+  use problem_solution, only: prove, solve, take_warning
   use progress_log, only: progress
   implicit none
   private
@@ -26,6 +26,7 @@ contains
     real(dp), allocatable, target :: alpha(:, :)
     type(fuge_problem) :: problem
     type(fuge_solution) :: solution
+    type(fuge_proof) :: proof
 
     call read_square(given%file('alpha'), alpha, info)
     if (info%failed()) return
@@ -33,7 +34,8 @@ contains
     call read_vector(given%file('gap'), size(alpha, 1), problem%gap, info)
     call take_points(given, problem, info)
     if (.not. info%failed()) call solve(alpha, problem, options, solution, log, info)
-    if (.not. info%failed()) call write_contact(given%file('output'), problem, solution, info)
+    if (given%has('prove') .and. .not. info%failed()) call prove(alpha, problem, solution, proof, log, info)
+    if (.not. info%failed()) call write_contact(given%file('output'), problem, solution, proof, info)
   end subroutine solve_influence
 
   !> --stiffness and --contact.
@@ -45,6 +47,7 @@ contains
     type(elastic_body), target :: body
     type(fuge_problem) :: problem
     type(fuge_solution) :: solution
+    type(fuge_proof) :: proof
     type(fuge_info) :: condensation, recovery
     real(dp), allocatable :: displacement(:)
 
@@ -57,6 +60,8 @@ contains
     if (.not. info%failed()) call solve(body%condensed%alpha, problem, options, solution, log, info)
     if (size(body%condensed%resultant) > 0) call explain_motions(info)
     if (info%failed()) return
+    if (given%has('prove')) call prove(body%condensed%alpha, problem, solution, proof, log, info)
+    if (info%failed()) return
     call take_warning(condensation, info)
     if (given%has('field')) then
       call body%recover(solution, displacement, recovery)
@@ -67,7 +72,7 @@ contains
       end if
       call take_warning(recovery, info)
     end if
-    call write_contact(given%file('output'), problem, solution, info)
+    call write_contact(given%file('output'), problem, solution, proof, info)
   end subroutine solve_body
 
   !> Of a body that floats, the library counts motions together with those of the counter-body, which the files do not

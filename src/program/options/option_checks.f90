@@ -70,6 +70,8 @@ contains
     if (kind /= WITH_MESHES .and. kind /= WITH_SURFACE) &
       call check_absent(given, ['pressure'], trim(NEEDED(WITH_MESHES))//', or '//NEEDED(WITH_SURFACE), info)
     if (kind /= WITH_ALPHA .and. kind /= WITH_MATRICES) call check_absent(given, LAWS, '--alpha or --contact', info)
+    if (kind == WITH_MESHES .or. kind == WITH_DECK) &
+      call check_absent(given, ['prove'], '--alpha, --contact or --surface', info)
     if (kind == WITH_SURFACE) call check_absent(given, NOT_SURFACE, 'matrices or meshes', info)
     if (kind == WITH_ALPHA) call check_absent(given, NOT_ALPHA, NEEDED(WITH_MATRICES), info)
     if (.not. info%failed()) call check_results(given, info)

@@ -6,15 +6,16 @@ module option_table
   public :: may_repeat, option_number, takes_value
 
   !> The names of the options, after two hyphens.
-  character(len=12), parameter, public :: OPTION_NAMES(53) = [character(len=12) :: &
+  character(len=12), parameter, public :: OPTION_NAMES(54) = [character(len=12) :: &
     'alpha', 'approach', 'body', 'boundary', 'cases', 'clearance', 'compliance', 'contact', 'crease', 'deck', &
     'element', 'exclude', 'external', 'faceted', 'field', 'fill', 'fixed', 'floats', 'gap', 'height-scale', 'help', &
     'level', 'limit', 'limit-upper', 'links', 'load', 'loads', 'matrix', 'mesh', 'modes', 'modulus', 'motion', &
-    'node-to-face', 'normals', 'output', 'pair', 'play', 'poisson', 'pressure', 'reach', 'resultant', 'rows', &
-    'scale', 'spacing', 'stiffness', 'support', 'supports', 'surface', 'threads', 'tied', 'verbose', 'version', 'young']
+    'node-to-face', 'normals', 'output', 'pair', 'play', 'poisson', 'pressure', 'prove', 'reach', 'resultant', &
+    'rows', 'scale', 'spacing', 'stiffness', 'support', 'supports', 'surface', 'threads', 'tied', 'verbose', &
+    'version', 'young']
   !> Those without a value.
-  character(len=12), parameter :: WITHOUT_VALUE(8) = [character(len=12) :: &
-    'faceted', 'fill', 'floats', 'help', 'node-to-face', 'tied', 'verbose', 'version']
+  character(len=12), parameter :: WITHOUT_VALUE(9) = [character(len=12) :: &
+    'faceted', 'fill', 'floats', 'help', 'node-to-face', 'prove', 'tied', 'verbose', 'version']
   !> Those that may be given again: of another body or pair, or one more support.
   character(len=12), parameter :: REPEATED(21) = [character(len=12) :: &
     'body', 'clearance', 'crease', 'exclude', 'faceted', 'load', 'loads', 'matrix', 'mesh', 'motion', 'node-to-face', &
@@ -25,7 +26,7 @@ module option_table
     'loads', 'mesh', 'modes', 'play', 'resultant', 'rows', 'stiffness', 'supports', 'surface']
 
   !> What `fuge --help` prints.
-  character(len=*), parameter, public :: HELP(102) = [character(len=96) :: &
+  character(len=*), parameter, public :: HELP(104) = [character(len=96) :: &
     'fuge: contact forces, gaps and pressures of elastic bodies, from files to a table', &
     '', &
     '  fuge --mesh FILE --stiffness FILE [--mesh FILE --stiffness FILE ..] --pair SURFACE:SURFACE', &
@@ -121,6 +122,8 @@ module option_table
     '                          columns for each load case of links; else on standard output', &
     '  --field FILE            displacements: .vtu for ParaView (meshes), or a table; of a surface', &
     '                          height, pressure, gap under the last load: .vti, or a table x,y,..', &
+    '  --prove                 bounds of the error of each number, and which states are proved:', &
+    '                          columns of the table; with --alpha, --contact or --surface', &
     '  --verbose               each step, with its time, on standard error', &
     '  --version               version, and the libraries in it with their licences', &
     '  --help', &

@@ -38,6 +38,8 @@ module surface_options
     !> Mean pressures if `of_pressure`, else forces on the whole surface.
     real(dp), allocatable :: load(:)
     logical :: of_pressure = .false.
+    !> Errors are bounded.
+    logical :: prove = .false.
   end type surface_settings
 
 contains
@@ -49,6 +51,7 @@ contains
     type(fuge_info), intent(inout) :: info
 
     settings%fill = given%has('fill')
+    settings%prove = given%has('prove')
     call take_choice(given, 'boundary', BOUNDARY_NAMES, settings%boundary_name, info)
     call take_choice(given, 'element', ELEMENT_NAMES, settings%element_name, info)
     call take_choice(given, 'level', LEVEL_NAMES, settings%level_name, info)

@@ -3,7 +3,7 @@ module surface_problem
   use, intrinsic :: iso_fortran_env, only: error_unit
   use command_line, only: arguments, refuse
   use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_info, fuge_options, fuge_problem, &
-    fuge_solution, fuge_solver, fuge_surface, FUGE_ERR_MEMORY
+    fuge_proof, fuge_prove, fuge_solution, fuge_solver, fuge_surface, FUGE_ERR_MEMORY
   use number_words, only: number_text, short_text
   use problem_solution, only: take_warning
   use progress_log, only: progress
@@ -84,6 +84,7 @@ contains
     type(fuge_info), intent(inout) :: info
     type(fuge_halfspace_operator) :: operator
     type(fuge_solver) :: solver
+    type(fuge_proof) :: proof
     type(fuge_info) :: of_load
     real(dp) :: area
     integer :: k
@@ -105,12 +106,35 @@ contains
       if (of_load%status == 0 .and. len_trim(of_load%message) > 0) call add_note(trim(of_load%message), note)
       call take_warning(of_load, info)
       info%residual = max(info%residual, of_load%residual)
-      call results(k)%take(surface, problem, solution, of_load)
+      if (settings%prove) call prove_load(operator, problem, solution, proof, note, of_load, info)
+      if (info%failed()) return
+      call results(k)%take(surface, problem, solution, proof, of_load)
       if (settings%of_pressure) results(k)%pressure = settings%load(k)
       call log%say('load '//number_text(k)//' of '//number_text(size(settings%load))//': ' &
                    //number_text(of_load%contacts)//' cells touch, '//number_text(of_load%products)//' products')
     end do
   end subroutine solve_loads
+
+  !> Bound the error of the solution under one load. A warning is one of all loads, and of this one unless it has one
+  !> already.
+  subroutine prove_load(operator, problem, solution, proof, note, of_load, info)
+    type(fuge_halfspace_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    type(fuge_proof), intent(inout) :: proof
+    character(len=:), allocatable, intent(inout) :: note
+    type(fuge_info), intent(inout) :: of_load, info
+    type(fuge_info) :: of_proof
+
+    call fuge_prove(operator, problem, solution, proof, of_proof)
+    if (of_proof%failed()) then
+      info = of_proof
+      return
+    end if
+    if (of_proof%status == 0 .and. len_trim(of_proof%message) > 0) call add_note(trim(of_proof%message), note)
+    call take_warning(of_proof, info)
+    if (of_load%status == 0) of_load%status = of_proof%status
+  end subroutine prove_load
 
   !> Say a remark on standard error, once, and keep it for the table.
   subroutine add_note(remark, note)

@@ -1,7 +1,7 @@
 !> The table of a measured surface: a line for each load.
 module surface_table
   use contact_table, only: put_outcome
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, fuge_surface
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_proof, fuge_solution, fuge_surface
   use number_words, only: number_text, short_text
   use surface_file, only: rms_height, rms_slope
   use surface_options, only: surface_settings, BOUNDARY_NAMES, ELEMENT_NAMES, LEVEL_NAMES
@@ -28,17 +28,24 @@ module surface_table
     real(dp) :: largest_pressure = 0.0_dp
     real(dp) :: residual = 0.0_dp
     integer :: status = 0
+    !> Bounds of the errors of the approach, of all pressures and of all gaps, and cells whose state is proved.
+    real(dp) :: approach_bound = 0.0_dp
+    real(dp) :: pressure_bound = 0.0_dp
+    real(dp) :: gap_bound = 0.0_dp
+    integer :: proved = 0
   contains
     procedure, public :: take
   end type load_results
 
 contains
 
-  subroutine take(self, surface, problem, solution, info)
+  !> Bounds only if `proof` has any.
+  subroutine take(self, surface, problem, solution, proof, info)
     class(load_results), intent(inout) :: self
     type(fuge_surface), intent(in) :: surface
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
+    type(fuge_proof), intent(in) :: proof
     type(fuge_info), intent(in) :: info
     real(dp) :: cell
 
@@ -55,6 +62,12 @@ contains
     self%largest_pressure = maxval(solution%force)/cell
     self%residual = info%residual
     self%status = info%status
+    if (.not. allocated(proof%force_bound)) return
+    self%approach_bound = proof%motion_bound(1)
+    ! One unit in the last place more is not below the exact quotient.
+    self%pressure_bound = nearest(maxval(proof%force_bound)/cell, 1.0_dp)
+    self%gap_bound = maxval(proof%gap_bound)
+    self%proved = count(proof%state_proved)
   end subroutine take
 
   !> On standard output if `path` is empty; `source` is the file of the surface. Error: FUGE_ERR_FILE.
@@ -65,7 +78,8 @@ contains
     type(load_results), intent(in) :: results(:)
     type(fuge_info), intent(inout) :: info
     type(table) :: csv
-    character(len=240) :: line
+    character(len=360) :: line
+    character(len=:), allocatable :: columns
     integer :: k
 
     call csv%create(path, info)
@@ -73,12 +87,15 @@ contains
     call put_outcome(csv, info)
     if (len(note) > 0) call csv%put('# note: '//note)
     call put_surface(csv, source, settings, surface)
-    call csv%put('pressure,load,cells,area,fraction,approach,mean_gap,contact_pressure,largest_pressure,' &
-                 //'residual,status')
+    columns = 'pressure,load,cells,area,fraction,approach,mean_gap,contact_pressure,largest_pressure,residual,status'
+    if (settings%prove) columns = columns//',approach_bound,pressure_bound,gap_bound,proved'
+    call csv%put(columns)
     do k = 1, size(results)
       associate (r => results(k))
         write (line, '(2(es24.16e3,","),i0,6(",",es24.16e3),",",es9.2e3,",",i0)') r%pressure, r%load, r%cells, r%area, &
           r%fraction, r%approach, r%mean_gap, r%contact_pressure, r%largest_pressure, r%residual, r%status
+        if (settings%prove) write (line(len_trim(line) + 1:), '(3(",",es24.16e3),",",i0)') r%approach_bound, &
+          r%pressure_bound, r%gap_bound, r%proved
       end associate
       call csv%put(line)
     end do

@@ -1,7 +1,7 @@
 !> Tables of contact forces and of displacements: CSV with comments after #.
 module contact_table
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, fuge_status_text, FUGE_LIMITED_LOWER, &
-    FUGE_LIMITED_UPPER
+  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_proof, fuge_solution, fuge_status_text, &
+    FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER
   use text_table, only: table
   implicit none
   private
@@ -10,28 +10,42 @@ module contact_table
 
 contains
 
-  !> Forces, gaps and states; on standard output if `path` is empty.
-  subroutine write_contact(path, problem, solution, info)
+  !> Forces, gaps and states, and their bounds if `proof` has any; on standard output if `path` is empty.
+  subroutine write_contact(path, problem, solution, proof, info)
     character(len=*), intent(in) :: path
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
+    type(fuge_proof), intent(in) :: proof
     type(fuge_info), intent(inout) :: info
     type(table) :: csv
     character(len=320) :: line
+    real(dp) :: range(2)
+    logical :: has_bounds
     integer :: k
 
+    has_bounds = allocated(proof%force_bound)
     call csv%create(path, info)
     if (info%failed()) return
     call put_status(csv, info)
     do k = 1, size(solution%motion)
       write (line, '(a,i0,2(a,es24.16e3))') '# motion ', k, ': ', solution%motion(k), ', resultant: ', &
         resultant(problem, solution%force, k)
+      if (has_bounds) write (line(len_trim(line) + 1:), '(a,es24.16e3)') ', bound: ', proof%motion_bound(k)
       call csv%put(line)
     end do
-    call csv%put('point,force,gap,state')
+    if (has_bounds) then
+      range = proof%largest_force(solution)
+      write (line, '(2(a,es24.16e3))') '# largest force: from ', range(1), ' to ', range(2)
+      call csv%put(line)
+      call csv%put('point,force,gap,state,force_bound,gap_bound,proved')
+    else
+      call csv%put('point,force,gap,state')
+    end if
     do k = 1, size(solution%force)
       write (line, '(i0,2('','',es24.16e3),2a)') k, solution%force(k), solution%gap(k), ',', &
         state_word(k, problem, solution)
+      if (has_bounds) write (line(len_trim(line) + 1:), '(2('','',es24.16e3),2a)') proof%force_bound(k), &
+        proof%gap_bound(k), ',', merge('yes', 'no ', proof%state_proved(k))
       call csv%put(line)
     end do
     call csv%finish(info)
@@ -48,7 +62,7 @@ contains
     call csv%put(line)
   end subroutine put_status
 
-  !> Status, message and residual.
+  !> Status, message, which may be a remark without a warning, and residual.
   subroutine put_outcome(csv, info)
     type(table), intent(inout) :: csv
     type(fuge_info), intent(in) :: info
@@ -56,7 +70,7 @@ contains
 
     write (line, '(a,i0,2a)') '# status: ', info%status, ', ', fuge_status_text(info%status)
     call csv%put(line)
-    if (info%status /= 0) call csv%put('# message: '//info%message)
+    if (info%status /= 0 .or. len_trim(info%message) > 0) call csv%put('# message: '//info%message)
     write (line, '(a,es9.2e3)') '# residual: ', info%residual
     call csv%put(line)
   end subroutine put_outcome

@@ -1,4 +1,4 @@
-/* Section "results" of fuge_core.h: numbers, report, history, messages. */
+/* Section "results" of fuge_core.h: numbers, proof, report, history, messages. */
 #include <limits.h>
 #include "table1.h"
 
@@ -80,6 +80,102 @@ static void test_too_early(void) {
   CHECK_UNTOUCHED(&z, 1);
   CHECK_INT(basis[0], -1);
   CHECK_INT(available, -1);
+  free_both(&solver, &op);
+}
+
+/* ---- proof -------------------------------------------------------------- */
+
+static void test_proof(void) {
+  double force[2] = {-1.0, -1.0}, gap[2] = {-1.0, -1.0}, motion = -1.0;
+  int proved[2] = {-1, -1};
+  char message[16] = "not yet written";
+  fuge_operator *op = NULL;
+  fuge_solver *solver = solved_table1(0, &op);
+  CHECK_DONE(fuge_prove(solver, force, gap, &motion, proved));
+  CHECK_MESSAGE(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "");
+  for (int k = 0; k < 2; k++) {
+    CHECK(force[k] >= 0.0 && force[k] <= EXACT);
+    CHECK(gap[k] >= 0.0 && gap[k] <= EXACT);
+    CHECK_INT(proved[k], 1);
+  }
+  CHECK(motion > 0.0 && motion <= EXACT);
+  CHECK_DONE(fuge_prove(solver, NULL, NULL, NULL, NULL));
+  motion = -1.0;
+  CHECK_DONE(fuge_prove(solver, NULL, NULL, &motion, NULL));
+  CHECK(motion > 0.0 && motion <= EXACT);
+  free_both(&solver, &op);
+}
+
+/* The motion that is given has no error. */
+static void test_proof_of_approach(void) {
+  double motion = -1.0;
+  fuge_operator *op = NULL;
+  fuge_solver *solver = table1_solver(NULL, &op);
+  CHECK_DONE(fuge_set_approach(solver, TABLE1_APPROACH));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_prove(solver, NULL, NULL, &motion, NULL));
+  CHECK_NEAR(motion, 0.0, 0.0);
+  free_both(&solver, &op);
+}
+
+/* The second point just touches: nobody can say whether it does, and all is bounded. */
+static void test_proof_of_a_border(void) {
+  const double gap[2] = {0.0, 0.2};
+  double force_bound[2] = {-1.0, -1.0};
+  int proved[2] = {-1, -1};
+  char message[256] = "";
+  fuge_operator *op = NULL;
+  fuge_solver *solver = table1_solver(NULL, &op);
+  CHECK_DONE(fuge_set_gap(solver, gap, NULL));
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_prove(solver, force_bound, NULL, NULL, proved));
+  CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "the first is point 1");
+  for (int k = 0; k < 2; k++) CHECK(force_bound[k] >= 0.0 && force_bound[k] <= EXACT);
+  CHECK_INT(proved[0], 1);
+  CHECK_INT(proved[1], 0);
+  free_both(&solver, &op);
+}
+
+/* Two points in the same place share the force as they like. */
+static void test_no_proof(void) {
+  const double alpha[4] = {1.0, 1.0, 1.0, 1.0}, gap[2] = {0.0, 0.0};
+  double bounds[2] = {-1.0, -1.0}, force[2] = {-1.0, -1.0}, motion = -1.0;
+  int proved[2] = {-1, -1};
+  char message[256] = "";
+  fuge_operator *op = NULL;
+  fuge_solver *solver = new_solver(alpha, 2, NULL, &op);
+  CHECK_DONE(fuge_set_gap(solver, gap, NULL));
+  CHECK_DONE(fuge_set_load(solver, 2.0));
+  CHECK_STATUS(fuge_solve(solver), FUGE_WARN_NOT_UNIQUE);
+  CHECK_STATUS(fuge_prove(solver, bounds, NULL, &motion, proved), FUGE_WARN_NOT_PROVED);
+  CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "positive definite");
+  for (int k = 0; k < 2; k++) {
+    CHECK(bounds[k] == HUGE_VAL);
+    CHECK_INT(proved[k], 0);
+  }
+  CHECK(motion == HUGE_VAL);
+  CHECK_DONE(fuge_get_force(solver, force));
+  CHECK_NEAR(force[0] + force[1], 2.0, EXACT);
+  free_both(&solver, &op);
+}
+
+/* Before the first solve, and after a change of the problem. */
+static void test_proof_too_early(void) {
+  double force[2], motion = SENTINEL;
+  int proved[2] = {-1, -1};
+  char message[256] = "";
+  fuge_operator *op = NULL;
+  fuge_solver *solver = table1_solver(NULL, &op);
+  fill(force, 2);
+  CHECK_STATUS(fuge_prove(NULL, force, NULL, &motion, proved), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_prove(solver, force, NULL, &motion, proved), FUGE_ERR_CALL_ORDER);
+  CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "call fuge_solve");
+  CHECK_DONE(fuge_solve(solver));
+  CHECK_DONE(fuge_set_load(solver, 1.0));
+  CHECK_STATUS(fuge_prove(solver, force, NULL, &motion, proved), FUGE_ERR_CALL_ORDER);
+  CHECK_UNTOUCHED(force, 2);
+  CHECK_UNTOUCHED(&motion, 1);
+  CHECK_INT(proved[0], -1);
   free_both(&solver, &op);
 }
 
@@ -278,6 +374,11 @@ int main(void) {
   test_info();
   test_null_pointers();
   test_too_early();
+  test_proof();
+  test_proof_of_approach();
+  test_proof_of_a_border();
+  test_no_proof();
+  test_proof_too_early();
   test_whole_history();
   test_part_of_history();
   test_history_ranges();
