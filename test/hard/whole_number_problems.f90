@@ -141,7 +141,7 @@ contains
       if (general) call draw_law(seed, k, numbers)
       call draw_state(seed, k, numbers)
       if (.not. ties) cycle
-      if (chance(seed, 0.4_dp)) call put_on_border(k, numbers)
+      if (chance(seed, 0.4_dp)) call put_on_border(seed, k, numbers)
     end do
   end subroutine draw_states
 
@@ -189,19 +189,31 @@ contains
     else if (numbers%play(k) > 1) then
       numbers%opening(k) = one_of(seed, int(numbers%play(k)) - 1)
     else
-      call put_on_border(k, numbers)
+      call put_on_border(seed, k, numbers)
     end if
   end subroutine draw_state
 
-  !> No force at the lower stop. That is the border of two states, unless the point is tied and its force is free.
-  subroutine put_on_border(k, numbers)
+  !> No force at the lower stop, or at one that has a limit by chance this limit. That is the border of two states, unless
+  !> the point is tied and its force is free.
+  subroutine put_on_border(seed, k, numbers)
+    integer(int64), intent(inout) :: seed
     integer, intent(in) :: k
     type(whole_numbers), intent(inout) :: numbers
+    logical :: at_limit
 
     numbers%force(k) = 0
     numbers%opening(k) = 0
+    at_limit = chance(seed, 0.5_dp)
     numbers%strict(k) = numbers%play(k) == 0 .and. numbers%limit(k) /= 0 .and. numbers%limit_upper(k) /= 0 &
                         .and. .not. numbers%excluded(k)
+    if (at_limit .and. numbers%limit(k) > 0 .and. .not. numbers%excluded(k)) then
+      numbers%force(k) = numbers%limit(k)
+      numbers%strict(k) = .false.
+    else if (at_limit .and. numbers%play(k) >= 0 .and. numbers%limit_upper(k) > 0 .and. .not. numbers%excluded(k)) then
+      numbers%force(k) = -numbers%limit_upper(k)
+      numbers%opening(k) = numbers%play(k)
+      numbers%strict(k) = .false.
+    end if
     numbers%is_tied = numbers%is_tied .or. .not. (numbers%strict(k) .or. numbers%excluded(k))
   end subroutine put_on_border
 

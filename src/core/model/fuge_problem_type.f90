@@ -163,11 +163,13 @@ contains
     integer, intent(in) :: k
     type(point_law) :: law
 
-    if (allocated(self%gap_upper)) law%play = min(self%gap_upper(k), huge(law%play))
-    if (allocated(self%limit)) law%limit = min(self%limit(k), huge(law%limit))
-    if (allocated(self%limit_upper)) law%limit_upper = min(self%limit_upper(k), huge(law%limit_upper))
+    ! The caller's arrays may begin with another number than 1.
+    if (allocated(self%gap_upper)) law%play = min(self%gap_upper(lbound(self%gap_upper, 1) + k - 1), huge(law%play))
+    if (allocated(self%limit)) law%limit = min(self%limit(lbound(self%limit, 1) + k - 1), huge(law%limit))
+    if (allocated(self%limit_upper)) law%limit_upper = min(self%limit_upper(lbound(self%limit_upper, 1) + k - 1), &
+                                                           huge(law%limit_upper))
     if (.not. allocated(self%excluded)) return
-    if (self%excluded(k)) law = point_law(limit=0.0_dp, limit_upper=0.0_dp)
+    if (self%excluded(lbound(self%excluded, 1) + k - 1)) law = point_law(limit=0.0_dp, limit_upper=0.0_dp)
   end function law
 
   !> What the spring on motion `j` takes of its resultant under `motion`, S q; zero without a spring, or where

@@ -3,13 +3,14 @@
 !> 1. A is positive definite on the forces that motions leave free, so the solution is the only one.
 !> 2. The equations for the states of the solution are enclosed, and the signs of all forces and gaps are certain: what
 !>    is enclosed is the solution.
-!> 3. Points whose sign is not certain, U, count as at a stop. With M the Schur complement of the other points at stops
-!>    and e = f' - f on U, where f' is enclosed, f the solution and f' + eta would keep to the law,
-!>    (e + eta) . M e <= 0, because the law is monotone. So |e| <= |eta| in the norm of M, which bounds all: the inverse
-!>    of M is a block of that of the equations (compare R. Mathias and J.-S. Pang, Linear Algebra and its Applications
-!>    132, 1990).
+!> 3. Points whose sign is not certain, U, count as at a stop. The problem on U alone, with the other points in their
+!>    states, has the Schur complement M of these as its matrix, which is positive definite, and so one solution f. With
+!>    the enclosed forces f' on U, e = f' - f and f' + eta within the law, (e + eta) . M e <= 0, because the law is
+!>    monotone. So |e| <= |eta| in the norm of M, which bounds all: the inverse of M is a block of that of the equations
+!>    (compare R. Mathias and J.-S. Pang, Linear Algebra and its Applications 132, 1990). If all other signs stay certain,
+!>    this is a solution of the whole problem, and by 1 the only one.
 module fuge_matrix_proof
-  use fuge_claimed_states, only: claim_point, claim_stop, point_claim, state_of
+  use fuge_claimed_states, only: claim_point, point_claim, state_by_law, state_of
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
@@ -71,14 +72,14 @@ contains
     allocate (states(contact%points), claims(contact%points), certain(contact%points), stat=stat)
     call require_memory(stat, 'the states of', contact%points, 'points', info)
     if (stat /= 0) return
-    states = [(state_of(problem, solution, k), k=1, contact%points)]
+    states = [(state_by_law(problem%law(k), state_of(problem, solution, k)), k=1, contact%points)]
     do set = 1, MOST_SETS
       claims = [(claim_point(problem%law(k), states(k)), k=1, contact%points)]
       call prove_set(contact, claims, enclosure, certain, is_proved, stat)
       call require_memory(stat, 'the inverse of the equations of', contact%points, 'points', info)
       if (stat /= 0) return
-      if (is_proved .or. all(certain .or. claims%at_stop)) exit
-      call put_at_stops(contact, claims, enclosure, certain, states)
+      if (is_proved .or. all(certain .or. claims%at_stop) .or. .not. enclosure%is_enclosed) exit
+      call put_at_stops(contact, problem, claims, enclosure, certain, states)
     end do
     if (is_proved) then
       call fill_proof(contact, problem, solution, claims, enclosure, proof)
@@ -142,14 +143,25 @@ contains
     type(point_claim), intent(in) :: claims(:)
     type(set_enclosure), intent(in) :: enclosure
     logical, intent(out) :: certain(:)
-    real(dp) :: ends(2), range(2)
     integer :: k
 
     do k = 1, size(claims)
-      call find_ranges(contact, claims(k), enclosure, k, range, ends)
-      certain(k) = range(1) > ends(1) .and. range(2) < ends(2)
+      certain(k) = is_within(contact, claims(k), enclosure, k)
     end do
   end subroutine judge_signs
+
+  !> Is point `k` within the range of the `claim`?
+  pure function is_within(contact, claim, enclosure, k) result(within)
+    type(scaled_contact), intent(in) :: contact
+    type(point_claim), intent(in) :: claim
+    type(set_enclosure), intent(in) :: enclosure
+    integer, intent(in) :: k
+    logical :: within
+    real(dp) :: ends(2), range(2)
+
+    call find_ranges(contact, claim, enclosure, k, range, ends)
+    within = range(1) > ends(1) .and. range(2) < ends(2)
+  end function is_within
 
   !> The range of the force or gap of point `k`, and the ends between which it has to be, in scaled units.
   pure subroutine find_ranges(contact, claim, enclosure, k, range, ends)
@@ -173,8 +185,9 @@ contains
   end subroutine find_ranges
 
   !> Put points whose gaps are not certain at the stop that is next to them.
-  pure subroutine put_at_stops(contact, claims, enclosure, certain, states)
+  pure subroutine put_at_stops(contact, problem, claims, enclosure, certain, states)
     type(scaled_contact), intent(in) :: contact
+    type(fuge_problem), intent(in) :: problem
     type(point_claim), intent(in) :: claims(:)
     type(set_enclosure), intent(in) :: enclosure
     logical, intent(in) :: certain(:)
@@ -183,11 +196,16 @@ contains
     integer :: k
 
     do k = 1, size(states)
-      if (certain(k) .or. claims(k)%at_stop) cycle
-      call find_ranges(contact, claims(k), enclosure, k, range, ends)
-      ! Each end is a stop, and at least one is not infinite: halves do not overflow.
-      states(k) = merge(FUGE_AT_UPPER_STOP, FUGE_AT_LOWER_STOP, &
-                        0.5_dp*range(1) + 0.5_dp*range(2) > 0.5_dp*ends(1) + 0.5_dp*ends(2))
+      if (certain(k) .or. claims(k)%at_stop .or. .not. contact%included(k)) cycle
+      if (abs(claims(k)%known) > 0.0_dp) then
+        states(k) = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, claims(k)%known > 0.0_dp)
+      else
+        call find_ranges(contact, claims(k), enclosure, k, range, ends)
+        ! Each end is a stop, and at least one is not infinite: halves do not overflow.
+        states(k) = merge(FUGE_AT_UPPER_STOP, FUGE_AT_LOWER_STOP, &
+                          0.5_dp*range(1) + 0.5_dp*range(2) > 0.5_dp*ends(1) + 0.5_dp*ends(2))
+      end if
+      states(k) = state_by_law(problem%law(k), states(k))
     end do
   end subroutine put_at_stops
 
@@ -204,7 +222,7 @@ contains
     type(verified_inverse) :: schur
     real(dp), allocatable :: block(:, :), error(:, :), gap(:), least_change(:), norms(:, :)
     integer, allocatable :: among(:)
-    real(dp) :: norm
+    real(dp) :: largest, norm
     integer :: j, u
 
     is_bounded = .false.
@@ -225,7 +243,11 @@ contains
     do j = 1, u
       norms(:, j) = raised(abs(schur%approximate(:, j)) + schur%column_error(j), 2)
     end do
+    ! As fractions of the largest, squares do not underflow.
+    largest = maxval(least_change)
+    least_change = raised(least_change/largest, 1) + LEAST
     norm = raised(sqrt(raised(dot_product(least_change, matmul(norms, least_change)), 2*u + 4)), 2)
+    norm = raised(largest*norm, 1)
     gap = [(raised(norm*sqrt(norms(j, j)), 4), j=1, u)]
     call add_changes(contact, inverse, among, gap, norm, enclosure)
   end subroutine widen

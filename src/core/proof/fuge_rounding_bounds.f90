@@ -9,7 +9,7 @@ module fuge_rounding_bounds
   implicit none
   private
 
-  public :: absolute_product, absolute_sums, gamma_bound, raised
+  public :: absolute_product, absolute_sums, gamma_bound, norm_bound, raised
 
   !> The unit roundoff.
   real(dp), parameter, public :: UNIT_ROUNDOFF = 0.5_dp*epsilon(1.0_dp)
@@ -58,5 +58,18 @@ contains
       y(j) = raised(sum(abs(matrix(:, j))*x), size(x) + 1) + LEAST
     end do
   end subroutine absolute_sums
+
+  !> An upper bound of the 2-norm, whose squares neither overflow nor underflow.
+  pure function norm_bound(values) result(bound)
+    real(dp), intent(in) :: values(:)
+    real(dp) :: bound
+    real(dp) :: largest
+
+    bound = 0.0_dp
+    if (size(values) < 1) return
+    largest = maxval(abs(values))
+    if (.not. largest > 0.0_dp) return
+    bound = raised(largest*sqrt(sum((values/largest)**2)), size(values) + 8)
+  end function norm_bound
 
 end module fuge_rounding_bounds

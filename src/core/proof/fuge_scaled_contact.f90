@@ -49,7 +49,7 @@ module fuge_scaled_contact
 contains
 
   !> Scale; `alpha` (lda, n). `stat` is not 0 without memory. `is_suited` is false where a diagonal element of
-  !> A + R W R^T is not positive, or there are too many points for the bounds.
+  !> A + R W R^T is not positive, elements differ too much in size, or there are too many points for the bounds.
   subroutine scale_contact(alpha, problem, solution, contact, is_suited, stat)
     real(dp), intent(in), contiguous :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
@@ -79,6 +79,8 @@ contains
     is_suited = is_suited .and. n < 2**20
     if (.not. is_suited) return
     call scale_operator(contact)
+    is_suited = all(abs(contact%matrix) <= huge(1.0_dp)) .and. all(abs(contact%modes) <= huge(1.0_dp))
+    if (.not. is_suited) return
     call scale_vectors(problem, solution, contact)
   end subroutine scale_contact
 
@@ -137,6 +139,7 @@ contains
     end do
     call choose_motion_powers(contact)
     contact%weight = scale(contact%weight, 2*(first - contact%motion_power))
+    call choose_excluded_powers(contact)
   end subroutine choose_powers
 
   !> Raise the weights of motions without springs until no diagonal element is negative where there is a datum.
@@ -178,27 +181,58 @@ contains
   !> Powers of motions by which no included point is displaced by more than 1, and no stiffness is above 1.
   pure subroutine choose_motion_powers(contact)
     type(scaled_contact), intent(inout) :: contact
-    integer :: j, k
-    real(dp) :: largest
+    integer :: j, largest
 
     do j = 1, contact%motions
-      largest = 0.0_dp
-      do k = 1, contact%points
-        if (contact%included(k)) largest = max(largest, abs(scale(contact%modes(k, j), contact%point_power(k))))
-      end do
-      if (contact%stiffness(j) > 0.0_dp) largest = max(largest, scale(1.0_dp, half(exponent(contact%stiffness(j)) + 1)))
-      contact%motion_power(j) = -exponent(largest)
+      ! By exponents, because the numbers themselves may not be in range before they are scaled.
+      largest = -huge(largest)
+      if (contact%stiffness(j) > 0.0_dp) largest = half(exponent(contact%stiffness(j)) + 1)
+      largest = max(largest, maxval(exponent(contact%modes(:, j)) + contact%point_power, &
+                                    contact%included .and. abs(contact%modes(:, j)) > 0.0_dp))
+      contact%motion_power(j) = 0
+      if (largest > -huge(largest)) contact%motion_power(j) = -largest
     end do
   end subroutine choose_motion_powers
 
+  !> Powers of excluded points, by which no force or motion displaces them by more than about 1.
+  pure subroutine choose_excluded_powers(contact)
+    type(scaled_contact), intent(inout) :: contact
+    integer :: j, k, largest
+
+    do k = 1, contact%points
+      if (contact%included(k)) cycle
+      largest = -huge(largest)
+      do j = 1, contact%points
+        associate (element => contact%matrix(max(j, k), min(j, k)))
+          if (contact%included(j) .and. abs(element) > 0.0_dp) &
+            largest = max(largest, exponent(element) + contact%point_power(j))
+        end associate
+      end do
+      largest = max(largest, maxval(exponent(contact%modes(k, :)) + contact%motion_power, &
+                                    abs(contact%modes(k, :)) > 0.0_dp))
+      if (largest > -huge(largest)) contact%point_power(k) = -largest
+    end do
+  end subroutine choose_excluded_powers
+
+  !> Excluded points have no forces: their columns, which may be of any size, are set to zero.
   pure subroutine scale_operator(contact)
     type(scaled_contact), intent(inout) :: contact
     integer :: j
 
     associate (n => contact%points, power => contact%point_power)
       do j = 1, n
-        contact%matrix(j:, j) = scale(contact%matrix(j:, j), power(j:) + power(j))
+        if (.not. contact%included(j)) contact%matrix(j, j) = 0.0_dp
+        where (contact%included(j:) .or. contact%included(j))
+          contact%matrix(j:, j) = scale(contact%matrix(j:, j), power(j:) + power(j))
+        elsewhere
+          contact%matrix(j:, j) = 0.0_dp
+        end where
         contact%matrix(j, j + 1:) = contact%matrix(j + 1:, j)
+      end do
+      do j = 1, n
+        if (contact%included(j)) cycle
+        contact%matrix(:, j) = 0.0_dp
+        contact%diagonal_rest(j) = 0.0_dp
       end do
       contact%diagonal_rest = scale(contact%diagonal_rest, 2*power)
       do j = 1, contact%motions

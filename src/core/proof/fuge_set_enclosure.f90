@@ -75,6 +75,8 @@ contains
     associate (unknowns => [enclosure%place, n + enclosure%motion_place])
       call inverse%enclose(residual(unknowns), error(unknowns), middle, radius)
     end associate
+    is_proved = all(abs(middle) <= huge(1.0_dp)) .and. all(radius <= huge(1.0_dp))
+    if (.not. is_proved) return
     call enclosure%spread(middle, radius)
     call find_gaps(contact, residual(:n), error(:n), enclosure)
   end subroutine enclose_set

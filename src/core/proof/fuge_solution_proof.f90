@@ -11,7 +11,7 @@ module fuge_solution_proof
   use fuge_proof_type, only: fuge_proof
   use fuge_spectral_proof, only: prove_with_products
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_FINITE, FUGE_ERR_SIZE, &
-    FUGE_ERR_UNSUPPORTED
+    FUGE_ERR_UNSUPPORTED, FUGE_WARN_NOT_PROVED
   implicit none
   private
 
@@ -57,11 +57,26 @@ contains
       call prove_with_products(operator, problem, solution, new, info)
     end select
     if (info%failed()) return
+    call keep_what_is_finite(new, info)
     call move_alloc(new%force_bound, proof%force_bound)
     call move_alloc(new%gap_bound, proof%gap_bound)
     call move_alloc(new%motion_bound, proof%motion_bound)
     call move_alloc(new%state_proved, proof%state_proved)
   end subroutine fuge_prove
+
+  !> What is no number, or out of the range of numbers, is not bounded.
+  subroutine keep_what_is_finite(proof, info)
+    type(fuge_proof), intent(inout) :: proof
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: infinity
+
+    if (proof%is_bounded() .or. info%status == FUGE_WARN_NOT_PROVED) return
+    infinity = ieee_value(1.0_dp, ieee_positive_inf)
+    where (.not. proof%force_bound <= huge(1.0_dp)) proof%force_bound = infinity
+    where (.not. proof%gap_bound <= huge(1.0_dp)) proof%gap_bound = infinity
+    where (.not. proof%motion_bound <= huge(1.0_dp)) proof%motion_bound = infinity
+    call report(info, FUGE_WARN_NOT_PROVED, 'some bounds are out of the range of double precision: choose other units')
+  end subroutine keep_what_is_finite
 
   subroutine check(operator, problem, solution, info)
     class(fuge_operator), intent(in) :: operator

@@ -7,14 +7,14 @@
 !> element. One translation, free or prescribed, or none; the points may have
 !> compliances, limits and upper stops.
 module fuge_spectral_proof
-  use fuge_claimed_states, only: claim_point, point_claim, state_of
+  use fuge_claimed_states, only: claim_point, point_claim, state_by_law, state_of
   use fuge_compensated_sums, only: compensated_sum
   use fuge_kinds, only: dp
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator, operator_bounds
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_proof_type, only: fuge_proof
-  use fuge_rounding_bounds, only: gamma_bound, raised, UNIT_ROUNDOFF
+  use fuge_rounding_bounds, only: gamma_bound, norm_bound, raised, UNIT_ROUNDOFF
   use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_WARN_NOT_PROVED
   implicit none
   private
@@ -32,6 +32,8 @@ module fuge_spectral_proof
     real(dp), allocatable :: initial(:), compliance(:), claimed_force(:), claimed_gap(:)
     !> Forces within the law, (n), and gaps by one product, up to a constant of all points, with their rounding, (n).
     real(dp), allocatable :: force(:), gap(:), rounding(:)
+    !> How far the gaps break the law at most, (n).
+    real(dp), allocatable :: violation(:)
     !> What is added to forces that are `inner`, to balance the load.
     logical, allocatable :: inner(:)
     real(dp) :: missing = 0.0_dp
@@ -71,8 +73,8 @@ contains
     if (reason == '') then
       n = operator%points()
       allocate (balanced%claims(n), balanced%initial(n), balanced%compliance(n), balanced%claimed_force(n), &
-                balanced%claimed_gap(n), balanced%force(n), balanced%gap(n), balanced%rounding(n), balanced%inner(n), &
-                stat=stat)
+                balanced%claimed_gap(n), balanced%force(n), balanced%gap(n), balanced%rounding(n), balanced%violation(n), &
+                balanced%inner(n), stat=stat)
       call require_memory(stat, 'the proof of', n, 'points', info)
       if (stat /= 0) return
       balanced%initial = problem%gap
@@ -115,7 +117,7 @@ contains
     logical :: is_balanced
 
     is_balanced = problem%mode_count() == 1
-    if (is_balanced .and. allocated(problem%prescribed)) is_balanced = .not. problem%prescribed(1)
+    if (is_balanced .and. allocated(problem%prescribed)) is_balanced = .not. any(problem%prescribed)
   end function is_balanced
 
   !> The least eigenvalue that counts.
@@ -137,7 +139,7 @@ contains
 
     margin = INNER*maxval(abs(balanced%claimed_force))
     do k = 1, size(balanced%force)
-      balanced%claims(k) = claim_point(problem%law(k), state_of(problem, solution, k))
+      balanced%claims(k) = claim_point(problem%law(k), state_by_law(problem%law(k), state_of(problem, solution, k)))
       associate (claim => balanced%claims(k), force => balanced%force(k))
         if (claim%at_stop) then
           force = min(max(balanced%claimed_force(k), claim%least), claim%most)
@@ -177,17 +179,17 @@ contains
     type(operator_bounds), intent(in) :: bounds
     type(balanced_solution), intent(inout) :: balanced
     type(fuge_info), intent(inout) :: info
-    real(dp) :: constant, force_norm, from_datum, motion(1), terms
+    real(dp) :: constant, force_norm, from_datum, motion, terms
     integer :: k
 
     call multiply(operator, balanced%force, balanced%gap, info)
     if (info%failed()) return
-    motion = 0.0_dp
-    if (problem%mode_count() == 1) motion = solution%motion(1)
-    if (problem%mode_count() == 1 .and. .not. is_balanced(problem)) motion = problem%motion(1)
+    ! There is at most one.
+    motion = sum(solution%motion)
+    if (problem%mode_count() == 1 .and. .not. is_balanced(problem)) motion = sum(problem%motion)
     from_datum = operator%datum()*compensated_sum(balanced%force)
-    constant = from_datum - motion(1)
-    terms = 8.0_dp*UNIT_ROUNDOFF*(abs(from_datum) + abs(motion(1))) + abs(operator%datum()) &
+    constant = from_datum - motion
+    terms = 8.0_dp*UNIT_ROUNDOFF*(abs(from_datum) + abs(motion)) + abs(operator%datum()) &
             *(2.0_dp*sum_error(balanced%force) + real(count(balanced%inner), dp)*balanced%missing) &
             + bounds%datum_rounding*sum(abs(balanced%force))
     balanced%motion_error = raised(terms, size(balanced%force) + 8)
@@ -204,7 +206,7 @@ contains
         rounding = raised(rounding, 8) + tiny(1.0_dp)
       end associate
     end do
-    force_norm = raised(norm2(balanced%force), size(balanced%force) + 2)
+    force_norm = norm_bound(balanced%force)
     balanced%product_error = raised(bounds%rounding*force_norm + bounds%most*balanced%missing &
                                     *sqrt(real(count(balanced%inner), dp)), 6) + tiny(1.0_dp)
   end subroutine find_gaps
@@ -241,20 +243,21 @@ contains
     real(dp) :: apart, from_mean, moved, norm
     integer :: certain, k
 
-    norm = 0.0_dp
     do k = 1, size(balanced%gap)
-      norm = norm + (violation(balanced, k) + balanced%rounding(k))**2
+      balanced%violation(k) = raised(violation(balanced, k) + balanced%rounding(k), 2)
     end do
-    norm = raised(sqrt(raised(norm, size(balanced%gap) + 6)), 2)
+    norm = norm_bound(balanced%violation)
     norm = norm + balanced%product_error
     balanced%force_error = raised(norm/least_of(problem, bounds), 4)
     balanced%energy_error = raised(norm/sqrt(least_of(problem, bounds)), 5)
     balanced%displacement_error = raised(min(balanced%energy_error*sqrt(balanced%own_displacement), &
                                              bounds%most*balanced%force_error), 4)
-    if (.not. balanced%force_error <= sqrt(huge(1.0_dp)) .or. .not. balanced%missing < huge(1.0_dp)) then
+    if (.not. balanced%missing < huge(1.0_dp)) then
       reason = 'no point in contact is far enough from its limits to take what the forces lack of the load'
-      return
+    else if (.not. balanced%force_error <= sqrt(huge(1.0_dp))) then
+      reason = 'the bounds are out of the range of double precision: choose other units'
     end if
+    if (reason /= '') return
     if (.not. is_balanced(problem)) return
     ! The mean of the gaps of points that are certainly at stops gives the motion.
     certain = 0
@@ -310,7 +313,7 @@ contains
     type(balanced_solution), intent(in) :: balanced
     type(fuge_proof), intent(inout) :: proof
     real(dp) :: error, moved
-    integer :: k
+    integer :: k, state
 
     moved = raised(balanced%displacement_error + balanced%product_error, 3)
     if (is_balanced(problem)) moved = raised(moved + balanced%motion_error, 2)
@@ -325,6 +328,10 @@ contains
         proof%state_proved(k) = force_is_certain(balanced, k) &
                                 .or. (.not. claim%at_stop .and. gap - 2.0_dp*error > claim%least &
                                       .and. gap + 2.0_dp*error < claim%most)
+        if (proof%state_proved(k)) then
+          state = state_of(problem, solution, k)
+          proof%state_proved(k) = state == state_by_law(problem%law(k), state)
+        end if
       end associate
     end do
     if (is_balanced(problem)) then
