@@ -18,7 +18,7 @@ module fuge_matrix_proof
   use fuge_proof_type, only: fuge_proof
   use fuge_rounding_bounds, only: raised, LEAST
   use fuge_scaled_contact, only: scaled_contact, scale_contact
-  use fuge_set_enclosure, only: add_columns, enclose_set, set_enclosure
+  use fuge_set_enclosure, only: add_columns, enclose_set, fill_equations, set_enclosure
   use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_NOT_PROVED
   use fuge_verified_inverse, only: verified_inverse
   implicit none
@@ -121,12 +121,14 @@ contains
     logical :: now_certain(size(certain))
 
     certain = claims%at_stop
-    call enclose_set(contact, claims, enclosure, inverse, is_proved, stat)
-    enclosure%is_enclosed = is_proved
+    call enclose_set(contact, claims, enclosure, stat)
+    is_proved = enclosure%is_enclosed
     if (stat /= 0 .or. .not. is_proved) return
     call judge_signs(contact, claims, enclosure, certain)
     is_proved = all(certain)
-    do while (all(certain .or. claims%at_stop) .and. .not. is_proved)
+    if (is_proved .or. .not. all(certain .or. claims%at_stop)) return
+    call invert_equations(contact, enclosure, inverse, stat)
+    do while (all(certain .or. claims%at_stop) .and. .not. is_proved .and. stat == 0 .and. inverse%is_proved)
       wider = enclosure
       call widen(contact, claims, .not. certain, inverse, wider, is_proved, stat)
       if (stat /= 0 .or. .not. is_proved) return
@@ -136,6 +138,22 @@ contains
       if (is_proved) enclosure = wider
     end do
   end subroutine prove_set
+
+  !> The inverse of the equations of the enclosure, for step 3. `stat` is not 0 without memory.
+  subroutine invert_equations(contact, enclosure, inverse, stat)
+    type(scaled_contact), intent(in) :: contact
+    type(set_enclosure), intent(in) :: enclosure
+    type(verified_inverse), intent(inout) :: inverse
+    integer, intent(out) :: stat
+    real(dp), allocatable :: matrix(:, :)
+    integer :: p
+
+    p = size(enclosure%place) + size(enclosure%motion_place)
+    allocate (matrix(p, p), stat=stat)
+    if (stat /= 0) return
+    call fill_equations(contact, enclosure%place, enclosure%motion_place, matrix)
+    call inverse%find(matrix, stat)
+  end subroutine invert_equations
 
   !> Which forces at stops, and which other gaps, are within their ranges?
   pure subroutine judge_signs(contact, claims, enclosure, certain)

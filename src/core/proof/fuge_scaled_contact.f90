@@ -8,7 +8,7 @@
 module fuge_scaled_contact
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use fuge_rounding_bounds, only: gamma_bound, raised
+  use fuge_rounding_bounds, only: absolute_product, gamma_bound, raised
   use fuge_verified_definite, only: prove_definite
   implicit none
   private
@@ -17,11 +17,15 @@ module fuge_scaled_contact
 
   !> Weight of a free motion, for coefficients and rigid displacements up to 1: more than a datum of A can take.
   real(dp), parameter :: WEIGHT = 2.0_dp
+  !> Factors below 2 to this power and their products are in range.
+  integer, parameter :: MOST_POWER = 400
   !> How often it is raised, by a factor of four.
   integer, parameter :: MOST_RAISES = 40
   !> The factor by which it is raised where that does not make A definite, and how often.
   real(dp), parameter :: RAISE = 64.0_dp
-  integer, parameter :: TRIES = 3
+  integer, parameter :: TRIES = 4
+  !> Most matrices are far from singular: the first try proves a larger eigenvalue, which makes bounds sharper.
+  real(dp), parameter :: LARGE_MARGIN = 256.0_dp, SMALL_MARGIN = 1.5_dp
 
   type, public :: scaled_contact
     integer :: points = 0, motions = 0
@@ -35,6 +39,8 @@ module fuge_scaled_contact
     real(dp), allocatable :: gap(:), resultant(:)
     !> The solution's. A prescribed motion is that of the problem.
     real(dp), allocatable :: force(:), claimed_gap(:), motion(:)
+    !> Not above the least eigenvalue of A + R W R^T on the points that can have a force, once it is proved to be definite.
+    real(dp) :: least = 0.0_dp
     !> Which points can have a force, (n), and which motions are free, (m)?
     logical, allocatable :: included(:), free(:)
   contains
@@ -127,7 +133,7 @@ contains
     first = contact%motion_power
     do j = 1, contact%motions
       contact%weight(j) = 0.0_dp
-      if (contact%free(j)) contact%weight(j) = min(WEIGHT, 0.5_dp/max(scale(contact%stiffness(j), 2*first(j)), tiny(1.0_dp)))
+      if (contact%free(j)) contact%weight(j) = min(WEIGHT, 0.49_dp/max(scale(contact%stiffness(j), 2*first(j)), tiny(1.0_dp)))
     end do
     call raise_weights(contact, start)
     is_suited = .true.
@@ -214,25 +220,65 @@ contains
     end do
   end subroutine choose_excluded_powers
 
+  !> Multiply the lower triangle by factors of rows and columns that are powers of two, which rounds nothing.
+  pure subroutine multiply_lower(factor, matrix)
+    real(dp), intent(in) :: factor(:)
+    real(dp), intent(inout), contiguous :: matrix(:, :)
+    integer :: j
+
+    do j = 1, size(factor)
+      matrix(j:, j) = matrix(j:, j)*(factor(j:)*factor(j))
+    end do
+  end subroutine multiply_lower
+
+  !> As multiply_lower, where factors may be out of range. Elements of two excluded points are of no use.
+  pure subroutine scale_lower(contact)
+    type(scaled_contact), intent(inout) :: contact
+    integer :: j
+
+    do j = 1, contact%points
+      where (contact%included(j:) .or. contact%included(j))
+        contact%matrix(j:, j) = scale(contact%matrix(j:, j), contact%point_power(j:) + contact%point_power(j))
+      elsewhere
+        contact%matrix(j:, j) = 0.0_dp
+      end where
+    end do
+  end subroutine scale_lower
+
+  !> Copy the lower triangle to the upper one, a block after the other, each of which stays in cache.
+  pure subroutine mirror(matrix)
+    real(dp), intent(inout), contiguous :: matrix(:, :)
+    integer, parameter :: BLOCK = 32
+    integer :: first, j, last, row
+
+    do first = 1, size(matrix, 2), BLOCK
+      last = min(first + BLOCK - 1, size(matrix, 2))
+      do row = 1, first - 1, BLOCK
+        do j = first, last
+          matrix(row:row + BLOCK - 1, j) = matrix(j, row:row + BLOCK - 1)
+        end do
+      end do
+      do j = first, last
+        matrix(first:j - 1, j) = matrix(j, first:j - 1)
+      end do
+    end do
+  end subroutine mirror
+
   !> Excluded points have no forces: their columns, which may be of any size, are set to zero.
   pure subroutine scale_operator(contact)
     type(scaled_contact), intent(inout) :: contact
     integer :: j
 
     associate (n => contact%points, power => contact%point_power)
+      if (all(contact%included) .and. maxval(abs(power)) < MOST_POWER) then
+        call multiply_lower(scale(1.0_dp, power), contact%matrix)
+      else
+        call scale_lower(contact)
+      end if
+      call mirror(contact%matrix)
       do j = 1, n
-        if (.not. contact%included(j)) contact%matrix(j, j) = 0.0_dp
-        where (contact%included(j:) .or. contact%included(j))
-          contact%matrix(j:, j) = scale(contact%matrix(j:, j), power(j:) + power(j))
-        elsewhere
-          contact%matrix(j:, j) = 0.0_dp
-        end where
-        contact%matrix(j, j + 1:) = contact%matrix(j + 1:, j)
-      end do
-      do j = 1, n
-        if (contact%included(j)) cycle
-        contact%matrix(:, j) = 0.0_dp
-        contact%diagonal_rest(j) = 0.0_dp
+        if (.not. contact%included(j)) contact%matrix(:, j) = 0.0_dp
+        if (.not. contact%included(j)) contact%diagonal_rest(j) = 0.0_dp
       end do
       contact%diagonal_rest = scale(contact%diagonal_rest, 2*power)
       do j = 1, contact%motions
@@ -335,61 +381,67 @@ contains
   !> Is it proved that A + D is positive definite on all forces of included points whose resultants in the free motions
   !> without springs are zero, and that with the springs no others are without energy? `stat` is not 0 without memory.
   subroutine prove_uniqueness(self, is_proved, stat)
-    class(scaled_contact), intent(in) :: self
+    class(scaled_contact), intent(inout) :: self
     logical, intent(out) :: is_proved
     integer, intent(out) :: stat
-    real(dp), allocatable :: form(:, :), terms(:)
+    real(dp), allocatable :: form(:, :)
     integer, allocatable :: place(:)
+    real(dp) :: terms
     integer :: k, p, try
 
     is_proved = .false.
     p = count(self%included)
-    allocate (form(p, p), terms(p), place(p), stat=stat)
+    allocate (form(p, p), place(p), stat=stat)
     if (stat /= 0) return
     place(:) = pack([(k, k=1, self%points)], self%included)
     do try = 1, TRIES
-      call fill_form(self, place, RAISE**(try - 1), form, terms)
+      if (try > 2) then
+        where (.not. self%stiffness > 0.0_dp) self%weight = RAISE*self%weight
+      end if
+      call fill_form(self, place, form)
+      call sum_terms(self, terms)
       ! Each element has so many roundings, A + D one more.
-      call prove_definite(form, gamma_bound(3*self%motions + 4) &
-                          *raised(maxval([terms, 0.0_dp]), p*(self%motions + 2)), is_proved)
+      call prove_definite(form, gamma_bound(3*self%motions + 4)*terms, is_proved, &
+                          merge(LARGE_MARGIN, SMALL_MARGIN, try == 1), self%least)
       if (is_proved) exit
     end do
   end subroutine prove_uniqueness
 
-  !> The lower triangle of A + R W R^T on the points `place` (p), with weights raised by a factor, and the sums of the
-  !> magnitudes of the `terms` in each row, (p).
-  pure subroutine fill_form(contact, place, factor, form, terms)
+  !> The lower triangle of A + R W R^T on the points `place` (p).
+  pure subroutine fill_form(contact, place, form)
     type(scaled_contact), intent(in) :: contact
     integer, intent(in) :: place(:)
-    real(dp), intent(in) :: factor
     real(dp), intent(inout), contiguous :: form(:, :)
-    real(dp), intent(inout) :: terms(:)
-    real(dp) :: weight
     integer :: j, k
 
-    terms = 0.0_dp
     do j = 1, size(place)
-      form(j:, j) = contact%matrix(place(j:), place(j))
-      call add_terms(form(j:, j), terms(j:))
+      if (size(place) == contact%points) then
+        form(j:, j) = contact%matrix(j:, j)
+      else
+        form(j:, j) = contact%matrix(place(j:), place(j))
+      end if
       do k = 1, contact%motions
-        weight = contact%weight(k)
-        if (.not. contact%stiffness(k) > 0.0_dp) weight = factor*weight
-        if (.not. weight > 0.0_dp) cycle
-        associate (column => weight*contact%modes(place(j), k)*contact%modes(place(j:), k))
-          form(j:, j) = form(j:, j) + column
-          call add_terms(column, terms(j:))
-        end associate
+        if (contact%weight(k) > 0.0_dp) form(j:, j) = form(j:, j) + (contact%weight(k)*contact%modes(place(j), k)) &
+                                                      *contact%modes(place(j:), k)
       end do
     end do
   end subroutine fill_form
 
-  !> Add the magnitudes of a lower column of a symmetric matrix to the sums of its rows.
-  pure subroutine add_terms(column, sums)
-    real(dp), intent(in) :: column(:)
-    real(dp), intent(inout) :: sums(:)
+  !> An upper bound of the 2-norm of the matrix that has the magnitudes of the terms of that form as its elements.
+  pure subroutine sum_terms(contact, terms)
+    class(scaled_contact), intent(in) :: contact
+    real(dp), intent(out) :: terms
+    real(dp) :: ones(contact%points), rows(contact%points)
+    integer :: k
 
-    sums = sums + abs(column)
-    sums(1) = sums(1) + sum(abs(column(2:)))
-  end subroutine add_terms
+    ones = merge(1.0_dp, 0.0_dp, contact%included)
+    call absolute_product(contact%matrix, ones, rows)
+    terms = maxval(rows, contact%included)
+    if (.not. any(contact%included)) terms = 0.0_dp
+    do k = 1, contact%motions
+      terms = terms + contact%weight(k)*maxval(abs(contact%modes(:, k))*ones)*sum(abs(contact%modes(:, k))*ones)
+    end do
+    terms = raised(terms, contact%points + 3*contact%motions + 4)
+  end subroutine sum_terms
 
 end module fuge_scaled_contact

@@ -15,25 +15,32 @@ module fuge_verified_definite
 contains
 
   !> Is every symmetric matrix positive definite whose lower triangle is within an error of the 2-norm `error` of
-  !> that of `matrix` (p, p)? Its upper triangle is not read, the lower one is lost.
-  subroutine prove_definite(matrix, error, is_proved)
+  !> that of `matrix` (p, p)? Its upper triangle is not read, the lower one is lost. `lowest` is then not above any
+  !> eigenvalue: a larger `margin` > 1, by default 1, proves a larger one of fewer matrices.
+  subroutine prove_definite(matrix, error, is_proved, margin, lowest)
     real(dp), intent(inout), contiguous :: matrix(:, :)
     real(dp), intent(in) :: error
     logical, intent(out) :: is_proved
-    real(dp) :: shift, trace
+    real(dp), intent(in), optional :: margin
+    real(dp), intent(out), optional :: lowest
+    real(dp) :: factor, rounding, shift, trace
     integer :: info, k, p
 
     p = size(matrix, 1)
     is_proved = .true.
+    if (present(lowest)) lowest = 1.0_dp
     if (p < 1) return
     trace = 0.0_dp
     do k = 1, p
       trace = trace + max(matrix(k, k), 0.0_dp)
     end do
-    ! Twice the bound of the factorisation: blocks divide by reciprocals.
-    shift = raised(2.0_dp*gamma_bound(p + 4)*raised(trace, p) + error, 4)
-    ! The subtraction rounds, too.
-    shift = raised(shift + 4.0_dp*UNIT_ROUNDOFF*(trace + shift), 4) + LEAST
+    ! Twice the bound of the factorisation: blocks divide by reciprocals. The subtraction rounds, too.
+    rounding = raised(2.0_dp*gamma_bound(p + 4)*raised(trace, p), 4)
+    rounding = raised(rounding + 4.0_dp*UNIT_ROUNDOFF*(trace + error + 2.0_dp*rounding), 4) + LEAST
+    factor = 1.0_dp
+    if (present(margin)) factor = margin
+    shift = raised(factor*rounding + error, 3)
+    if (present(lowest)) lowest = 0.99_dp*(factor - 1.0_dp)*rounding
     do k = 1, p
       matrix(k, k) = matrix(k, k) - shift
     end do

@@ -1,13 +1,12 @@
-!> The inverse of a matrix with bounds of its error, by which solutions of its equations are enclosed.
+!> The inverse of a matrix with bounds of its error.
 !>
-!> With an approximate inverse Y of K let G = I - Y K. If G v < v for some v > 0, then K is not singular, and
-!> |e| <= t + alpha |G| v holds for all e with K e = r, where |Y r| <= t and alpha is the largest of t/(v - |G| v)
-!> (S. M. Rump, Verification methods: rigorous results using floating-point arithmetic, Acta Numerica 19, 2010, section
+!> With an approximate inverse Y of K let G = I - Y K. If |G| v < v for some v > 0, then K is not singular, and column j of
+!> the inverse is off by at most alpha |G| v, where alpha is the largest of |Y_ij|/(v - |G| v)_i (S. M. Rump, Verification methods: rigorous results using floating-point arithmetic, Acta Numerica 19, 2010, section
 !> 10; S. Oishi and S. M. Rump, Numerische Mathematik 90, 2002). v is found by the power method, so that it is as good
 !> as a Perron vector. The numbers of K are scaled by the caller to about 1.
 module fuge_verified_inverse
   use fuge_kinds, only: dp
-  use fuge_lapack, only: dgemm, dgemv, dgetrf, dgetri
+  use fuge_lapack, only: dgemm, dgetrf, dgetri
   use fuge_rounding_bounds, only: absolute_product, gamma_bound, raised, LEAST
   implicit none
   private
@@ -28,7 +27,6 @@ module fuge_verified_inverse
     real(dp), allocatable, private :: margin(:), defect(:)
   contains
     procedure :: find
-    procedure :: enclose
     procedure :: column_error
   end type verified_inverse
 
@@ -127,24 +125,6 @@ contains
     ! The subtraction from 1 rounds too.
     bound = raised(bound + rounding + gamma_bound(p + 4)*v, 4)
   end subroutine bound_defect
-
-  !> Enclose e of K e = r, where r is known up to `error` (p) around `right` (p): |e - `middle`| <= `radius`, (p).
-  subroutine enclose(self, right, error, middle, radius)
-    class(verified_inverse), intent(in) :: self
-    real(dp), intent(in) :: right(:), error(:)
-    real(dp), intent(out) :: middle(:), radius(:)
-    real(dp) :: size_of_terms(size(right))
-    integer :: p
-
-    p = size(right)
-    middle = 0.0_dp
-    radius = 0.0_dp
-    if (p < 1) return
-    call dgemv('N', p, p, 1.0_dp, self%approximate, p, right, 1, 0.0_dp, middle, 1)
-    size_of_terms = raised(gamma_bound(p + 2)*abs(right) + error, 2)
-    call absolute_product(self%approximate, size_of_terms, radius)
-    radius = raised(radius + largest_ratio(abs(middle) + radius, self%margin)*self%defect, 3) + LEAST
-  end subroutine enclose
 
   !> How far column `j` of the inverse is at most from that of Y, (p).
   pure function column_error(self, j) result(error)
