@@ -25,7 +25,8 @@ contains
     type(bench_surface) :: surface
     integer :: j, k
 
-    write (*, '(a)') '| matrix | n | in contact | solve | proof | over solve | largest bound of a force | of the approach |'
+    write (*, '(a)') '| matrix | n | in contact | solve | proof | over solve | largest bound of a force ' &
+      //'| of the approach |'
     write (*, '(a)') '| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |'
     do k = 1, size(SIZES)
       call make_known('quartic', FUGE_MEAN, uniform_edges(SIZES(k)), known)

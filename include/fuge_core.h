@@ -612,10 +612,10 @@ int fuge_get_derivatives(const fuge_solver *s, const double *gap_change, const d
  *                      translation
  *   proved        out  n, 1 where it is proved that the point has the state of fuge_get_states and
  *                      is not on the border to another one, else 0
- * Each of the four may be NULL.  By a matrix any problem, in the time of one to three solves from
- * cold and with memory for three copies of the matrix; its lower triangle counts.  By a
+ * Each of the four may be NULL.  By a matrix any problem, in the time of a few solves from cold and
+ * with memory for three copies of the matrix; its lower triangle counts.  By a
  * half-plane or half-space on a grid one translation, free or prescribed, for the exact
- * coefficients of the elements, by one product.  FUGE_DONE with a message in the solver: all is
+ * coefficients of the elements, by two products.  FUGE_DONE with a message in the solver: all is
  * bounded, but the states of some points are not proved.  FUGE_WARN_NOT_PROVED: the message says
  * why bounds are infinite, HUGE_VAL; so is each one by another operator.  The solution stays.
  * FUGE_ERR_CALL_ORDER as above, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED where ranks share the

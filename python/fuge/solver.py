@@ -414,9 +414,9 @@ class Solver(Owner):
     def prove(self) -> Proof:
         """Bounds of the error of the last solution: of each force, gap and motion, rounding included.
 
-        By a matrix for any problem, in the time of one to three solves from cold and with memory for three copies of
-        the matrix, of which one triangle counts. By a half-plane or half-space for one translation, free or prescribed,
-        in the time of one product. Operators of other kinds prove nothing.
+        By a matrix for any problem, in the time of a few solves from cold and with memory for three copies of the
+        matrix, of which one triangle counts. By a half-plane or half-space for one translation, free or prescribed,
+        in the time of two products. Operators of other kinds prove nothing.
 
         Returns
         -------

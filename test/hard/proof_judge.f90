@@ -51,8 +51,8 @@ contains
              .or. any(abs(solution%motion - answer%motion) > proof%motion_bound)
   end subroutine prove_answer
 
-  !> Judge the problems `first` to `last`, with ties or without. Only those whose answer is the only one are in `counts`;
-  !> the others must not have finite bounds that are wrong.
+  !> Judge the problems `first` to `last`, with ties or without. Only those whose answer is the only one are in
+  !> `counts`; the others must not have finite bounds that are wrong.
   subroutine judge_whole_proofs(first, last, ties, counts)
     integer, intent(in) :: first, last
     logical, intent(in) :: ties

@@ -14,8 +14,9 @@ module refined_forces
 
 contains
 
-  !> The mean displacement of a cell by a unit force on a cell of width 1 and E* = 1, `apart` cells away, on a half-plane
-  !> where displacements are zero at a distance of 2 n cells: an antiderivative of the logarithm, differenced.
+  !> The mean displacement of a cell by a unit force on a cell of width 1 and E* = 1, `apart` cells away, on a
+  !> half-plane where displacements are zero at a distance of 2 n cells: an antiderivative of the logarithm,
+  !> differenced.
   pure function cell_influence(apart, n) result(influence)
     integer, intent(in) :: apart, n
     real(qp) :: influence

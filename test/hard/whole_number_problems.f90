@@ -1,9 +1,9 @@
-!> Random contact problems whose data and whose answer are whole numbers times powers of two, so that the answer is exact
-!> for the data as stored: gaps and resultants are computed from it in integers.
+!> Random contact problems whose data and whose answer are whole numbers times powers of two, so that the answer is
+!> exact for the data as stored: gaps and resultants are computed from it in integers.
 !>
 !> alpha = L D L^T with whole numbers in the triangle L, that of a condition number up to 1e18, on scales of points that
-!> are powers of two. All kinds of problems: up to two motions, some prescribed, some on springs; play, ties, exclusions,
-!> compliances and limits; points on the border of two states.
+!> are powers of two. All kinds of problems: up to two motions, some prescribed, some on springs; play, ties,
+!> exclusions, compliances and limits; points on the border of two states.
 module whole_number_problems
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge, only: dp => fuge_dp, fuge_problem, fuge_solution
@@ -193,8 +193,8 @@ contains
     end if
   end subroutine draw_state
 
-  !> No force at the lower stop, or at one that has a limit by chance this limit. That is the border of two states, unless
-  !> the point is tied and its force is free.
+  !> No force at the lower stop, or at one that has a limit by chance this limit. That is the border of two states,
+  !> unless the point is tied and its force is free.
   subroutine put_on_border(seed, k, numbers)
     integer(int64), intent(inout) :: seed
     integer, intent(in) :: k

@@ -415,7 +415,8 @@ contains
 
   !> Bounds of the eigenvalues of the circulant matrix that holds A, for coefficients off by at most eight units of
   !> roundoff. Nothing is certain of layered bodies, of surfaces that are periodic in one direction, of windows of
-  !> periodic ones, and of free grids of more than 4096 x 4096 cells. `status`: 0, FUGE_ERR_CALL_ORDER or FUGE_ERR_MEMORY.
+  !> periodic ones, and of free grids of more than 4096 x 4096 cells. `status`: 0, FUGE_ERR_CALL_ORDER or
+  !> FUGE_ERR_MEMORY.
   subroutine surface_bounds(self, bounds, status)
     class(fuge_halfspace_operator), intent(in) :: self
     type(operator_bounds), intent(out) :: bounds

@@ -1,10 +1,10 @@
 !> Sums of products with 30 digits of their terms, and how far they are off.
 !>
-!> Each sum has four parts. All but the last start from a bias that is larger than all that will be added to them, so that
-!> three additions show what rounding takes from them exactly (T. J. Dekker, Numerische Mathematik 18, 1971), and goes to
-!> the next part. Products are split into four of which three are exact; the rounding of the fourth is below 2**(-103) of
-!> the product. What is added to the last part is below 2**(-95) of the sum of the terms, so that its roundings are
-!> negligible for up to 2**20 terms.
+!> Each sum has four parts. All but the last start from a bias that is larger than all that will be added to them, so
+!> that three additions show what rounding takes from them exactly (T. J. Dekker, Numerische Mathematik 18, 1971), and
+!> goes to the next part. Products are split into four of which three are exact; the rounding of the fourth is below
+!> 2**(-103) of the product. What is added to the last part is below 2**(-95) of the sum of the terms, so that its
+!> roundings are negligible for up to 2**20 terms.
 module fuge_cascaded_sums
   use fuge_compensated_sums, only: bias_above, upper_half
   use fuge_kinds, only: dp

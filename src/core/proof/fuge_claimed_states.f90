@@ -10,8 +10,8 @@ module fuge_claimed_states
 
   public :: claim_point, state_by_law, state_of
 
-  !> The claim about a point: its gap is that of a stop, and its force within a range, or its force is known, and its gap
-  !> within a range. Infinite ends are huge.
+  !> The claim about a point: its gap is that of a stop, and its force within a range, or its force is known, and its
+  !> gap within a range. Infinite ends are huge.
   type, public :: point_claim
     logical :: at_stop = .false.
     !> The gap at the stop, or the force.

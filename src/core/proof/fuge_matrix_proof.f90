@@ -7,8 +7,8 @@
 !>    states, has the Schur complement M of these as its matrix, which is positive definite, and so one solution f. With
 !>    the enclosed forces f' on U, e = f' - f and f' + eta within the law, (e + eta) . M e <= 0, because the law is
 !>    monotone. So |e| <= |eta| in the norm of M, which bounds all: the inverse of M is a block of that of the equations
-!>    (compare R. Mathias and J.-S. Pang, Linear Algebra and its Applications 132, 1990). If all other signs stay certain,
-!>    this is a solution of the whole problem, and by 1 the only one.
+!>    (compare R. Mathias and J.-S. Pang, Linear Algebra and its Applications 132, 1990). If all other signs stay
+!>    certain, this is a solution of the whole problem, and by 1 the only one.
 module fuge_matrix_proof
   use fuge_claimed_states, only: claim_point, point_claim, state_by_law, state_of
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
@@ -102,13 +102,13 @@ contains
                   //'certain, the first is point '//index_text(findloc(certain, .false., 1)) &
                   //', and the other ones do not bound the solution: solve to a smaller tolerance')
     else
-      call report(info, FUGE_WARN_NOT_PROVED, 'the equations of the points in contact are too badly conditioned to be ' &
-                  //'enclosed, or leave a motion free')
+      call report(info, FUGE_WARN_NOT_PROVED, 'the equations of the points in contact are too badly conditioned to ' &
+                  //'be enclosed, or leave a motion free')
     end if
   end subroutine report_states
 
-  !> Enclose the solution of the problem, if `claims` (n) say so much: is_proved. Which signs are `certain` (n)? `stat` is
-  !> not 0 without memory.
+  !> Enclose the solution of the problem, if `claims` (n) say so much: is_proved. Which signs are `certain` (n)? `stat`
+  !> is not 0 without memory.
   subroutine prove_set(contact, claims, enclosure, certain, is_proved, stat)
     type(scaled_contact), intent(in) :: contact
     type(point_claim), intent(in) :: claims(:)

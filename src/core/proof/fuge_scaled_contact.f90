@@ -39,7 +39,8 @@ module fuge_scaled_contact
     real(dp), allocatable :: gap(:), resultant(:)
     !> The solution's. A prescribed motion is that of the problem.
     real(dp), allocatable :: force(:), claimed_gap(:), motion(:)
-    !> Not above the least eigenvalue of A + R W R^T on the points that can have a force, once it is proved to be definite.
+    !> Not above the least eigenvalue of A + R W R^T on the points that can have a force, once it is proved to be
+    !> definite.
     real(dp) :: least = 0.0_dp
     !> Which points can have a force, (n), and which motions are free, (m)?
     logical, allocatable :: included(:), free(:)
@@ -70,7 +71,8 @@ contains
     m = problem%mode_count()
     allocate (contact%point_power(n), contact%motion_power(m), contact%matrix(n, n), contact%diagonal_rest(n), &
               contact%modes(n, m), contact%stiffness(m), contact%weight(m), contact%gap(n), contact%resultant(m), &
-              contact%force(n), contact%claimed_gap(n), contact%motion(m), contact%included(n), contact%free(m), stat=stat)
+              contact%force(n), contact%claimed_gap(n), contact%motion(m), contact%included(n), contact%free(m), &
+              stat=stat)
     if (stat /= 0) return
     contact%points = n
     contact%motions = m
@@ -133,7 +135,8 @@ contains
     first = contact%motion_power
     do j = 1, contact%motions
       contact%weight(j) = 0.0_dp
-      if (contact%free(j)) contact%weight(j) = min(WEIGHT, 0.49_dp/max(scale(contact%stiffness(j), 2*first(j)), tiny(1.0_dp)))
+      if (contact%free(j)) contact%weight(j) = &
+        min(WEIGHT, 0.49_dp/max(scale(contact%stiffness(j), 2*first(j)), tiny(1.0_dp)))
     end do
     call raise_weights(contact, start)
     is_suited = .true.

@@ -29,7 +29,8 @@ module fuge_set_enclosure
   !> A bound of this fraction of the largest unknown is as small as it need be.
   real(dp), parameter :: SMALL = 2.0_dp**(-60)
 
-  !> The solution for the states: each number is within its radius of what is claimed and its change. All in scaled units.
+  !> The solution for the states: each number is within its radius of what is claimed and its change. All in scaled
+  !> units.
   type, public :: set_enclosure
     !> Points at stops, and free motions: the unknowns, in this order.
     integer, allocatable :: place(:), motion_place(:)
@@ -46,13 +47,13 @@ module fuge_set_enclosure
     procedure :: gap_range
   end type set_enclosure
 
-  !> What is added to the claimed forces and motions, (n + m, corrections), and what that leaves of the equations, (n + m),
-  !> known up to `error`.
+  !> What is added to the claimed forces and motions, (n + m, corrections), and what that leaves of the equations, (n +
+  !> m), known up to `error`.
   type :: corrected_solution
     real(dp), allocatable :: correction(:, :), residual(:), error(:)
     integer :: corrections = 0
-    !> The sums of the terms of the equations, their bounds when they were started, and the rounding of products that are
-    !> not part of the sums.
+    !> The sums of the terms of the equations, their bounds when they were started, and the rounding of products that
+    !> are not part of the sums.
     type(cascaded_sums) :: of_points, of_motions
     real(dp), allocatable :: most(:), rounding(:)
   end type corrected_solution
@@ -286,7 +287,8 @@ contains
       motion = raised(abs(contact%motion) + sum(abs(corrected%correction(n + 1:, :steps)), dim=2), steps + 1)
       call absolute_product(contact%matrix, force, terms(:n))
       call absolute_product(contact%modes, motion, rigid)
-      terms(:n) = raised(terms(:n) + rigid + abs(enclosure%gap) + abs(contact%gap) + abs(contact%diagonal_rest*force), 6)
+      terms(:n) = raised(terms(:n) + rigid + abs(enclosure%gap) + abs(contact%gap) &
+                         + abs(contact%diagonal_rest*force), 6)
       call absolute_sums(contact%modes, force, terms(n + 1:))
       terms(n + 1:) = raised(terms(n + 1:) + abs(contact%resultant) + contact%stiffness*motion, 5)
       ! A sum without terms needs a bias all the same.

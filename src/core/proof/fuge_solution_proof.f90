@@ -22,14 +22,14 @@ contains
   !> Bound the error of a `solution` of `problem` with `operator`, by theorems: rounding is included, and no bound is
   !> too low. doc/proof.md says what is proved, and how.
   !>
-  !> `operator` with n points. A fuge_dense_operator: any problem, for the matrix whose lower triangle is the caller's; it
-  !> takes the time of one to three solves from cold, and memory for three copies of the matrix. A half-plane or
-  !> half-space on a grid: one product; one translation, free or prescribed, for the exact coefficients of the elements.
-  !> `solution`: from a solve or from elsewhere, its force and gap (n), its motion (m). On return `proof` has a bound for
-  !> each number. FUGE_WARN_NOT_PROVED: the message says why bounds are infinite. Status 0 with a message: all is bounded,
-  !> but the states of some points are not proved. Errors, which leave `proof` as it was: those of the problem's checks;
-  !> FUGE_ERR_CALL_ORDER for an operator that is not set; FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE; FUGE_ERR_UNSUPPORTED where
-  !> ranks share the points; FUGE_ERR_MEMORY; those of the product.
+  !> `operator` with n points. A fuge_dense_operator: any problem, for the matrix whose lower triangle is the caller's;
+  !> it takes a Cholesky factorisation of all points, which is a few solves from cold, and memory for three copies of
+  !> the matrix. A half-plane or half-space on a grid: two products; one translation, free or prescribed, for the exact
+  !> coefficients of the elements. `solution`: from a solve or from elsewhere, its force and gap (n), its motion (m). On
+  !> return `proof` has a bound for each number. FUGE_WARN_NOT_PROVED: the message says why bounds are infinite. Status
+  !> 0 with a message: all is bounded, but the states of some points are not proved. Errors, which leave `proof` as it
+  !> was: those of the problem's checks; FUGE_ERR_CALL_ORDER for an operator that is not set; FUGE_ERR_SIZE;
+  !> FUGE_ERR_NOT_FINITE; FUGE_ERR_UNSUPPORTED where ranks share the points; FUGE_ERR_MEMORY; those of the product.
   subroutine fuge_prove(operator, problem, solution, proof, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -108,8 +108,8 @@ contains
     if (.not. allocated(values)) then
       call report(info, FUGE_ERR_SIZE, 'the '//name//' of the solution is not allocated: solve first')
     else if (size(values) /= expected) then
-      call report(info, FUGE_ERR_SIZE, 'the '//name//' of the solution has '//text(size(values))//' value(s): it needs ' &
-                  //text(expected))
+      call report(info, FUGE_ERR_SIZE, 'the '//name//' of the solution has '//text(size(values)) &
+                  //' value(s): it needs '//text(expected))
     else if (.not. is_finite_everywhere(values)) then
       call report(info, FUGE_ERR_NOT_FINITE, 'the '//name//' of the solution is not finite: solve again')
     end if

@@ -27,8 +27,8 @@ module fuge_spectral_proof
   !> A solution that keeps to the law but for its gaps. It is never below what the comments say.
   type :: balanced_solution
     type(point_claim), allocatable :: claims(:)
-    !> What is given: initial gaps, compliances, and the forces and gaps of the solution, (n). Copies, because the caller's
-    !> arrays may begin with another number than 1.
+    !> What is given: initial gaps, compliances, and the forces and gaps of the solution, (n). Copies, because the
+    !> caller's arrays may begin with another number than 1.
     real(dp), allocatable :: initial(:), compliance(:), claimed_force(:), claimed_gap(:)
     !> Forces within the law, (n), and gaps by one product, up to a constant of all points, with their rounding, (n).
     real(dp), allocatable :: force(:), gap(:), rounding(:)
@@ -67,14 +67,14 @@ contains
       call operator%bounds(bounds, status)
       if (status /= FUGE_DONE) call report(info, status, 'the bounds of the operator could not be computed')
       if (info%failed()) return
-      if (.not. least_of(problem, bounds) > 0.0_dp) reason = 'bounds of the eigenvalues of this operator are not known, ' &
-        //'or do not show that it is positive definite'
+      if (.not. least_of(problem, bounds) > 0.0_dp) reason = &
+        'bounds of the eigenvalues of this operator are not known, or do not show that it is positive definite'
     end if
     if (reason == '') then
       n = operator%points()
       allocate (balanced%claims(n), balanced%initial(n), balanced%compliance(n), balanced%claimed_force(n), &
-                balanced%claimed_gap(n), balanced%force(n), balanced%gap(n), balanced%rounding(n), balanced%violation(n), &
-                balanced%inner(n), stat=stat)
+                balanced%claimed_gap(n), balanced%force(n), balanced%gap(n), balanced%rounding(n), &
+                balanced%violation(n), balanced%inner(n), stat=stat)
       call require_memory(stat, 'the proof of', n, 'points', info)
       if (stat /= 0) return
       balanced%initial = problem%gap

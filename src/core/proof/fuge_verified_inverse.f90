@@ -1,9 +1,10 @@
 !> The inverse of a matrix with bounds of its error.
 !>
-!> With an approximate inverse Y of K let G = I - Y K. If |G| v < v for some v > 0, then K is not singular, and column j of
-!> the inverse is off by at most alpha |G| v, where alpha is the largest of |Y_ij|/(v - |G| v)_i (S. M. Rump, Verification methods: rigorous results using floating-point arithmetic, Acta Numerica 19, 2010, section
-!> 10; S. Oishi and S. M. Rump, Numerische Mathematik 90, 2002). v is found by the power method, so that it is as good
-!> as a Perron vector. The numbers of K are scaled by the caller to about 1.
+!> With an approximate inverse Y of K let G = I - Y K. If |G| v < v for some v > 0, then K is not singular, and column j
+!> of the inverse is off by at most alpha |G| v, where alpha is the largest of |Y_ij|/(v - |G| v)_i (S. M. Rump,
+!> Verification methods: rigorous results using floating-point arithmetic, Acta Numerica 19, 2010, section 10; S. Oishi
+!> and S. M. Rump, Numerische Mathematik 90, 2002). v is found by the power method, so that it is as good as a Perron
+!> vector. The numbers of K are scaled by the caller to about 1.
 module fuge_verified_inverse
   use fuge_kinds, only: dp
   use fuge_lapack, only: dgemm, dgetrf, dgetri
@@ -32,8 +33,8 @@ module fuge_verified_inverse
 
 contains
 
-  !> Find the inverse of `matrix` (p, p), whose elements are known up to `radius` (p, p), if it is given. `stat` is not 0
-  !> without memory.
+  !> Find the inverse of `matrix` (p, p), whose elements are known up to `radius` (p, p), if it is given. `stat` is not
+  !> 0 without memory.
   subroutine find(self, matrix, stat, radius)
     class(verified_inverse), intent(inout) :: self
     real(dp), intent(in), contiguous :: matrix(:, :)

@@ -60,10 +60,12 @@ contains
       fault = trim(fault)//' a gap;'
     if (.not. all(abs(solution%motion - exact%motion) <= proof%motion_bound + of_matrix%motion_bound + lengths)) &
       fault = trim(fault)//' the motion;'
-    if (.not. maxval(proof%force_bound) < 1.0e8_dp*forces) fault = trim(fault)//' a bound of '//text(maxval(proof%force_bound))
+    if (.not. maxval(proof%force_bound) < 1.0e8_dp*forces) fault = trim(fault)//' a bound of ' &
+                                                                   //text(maxval(proof%force_bound))
     ! States that are proved are those of the exact solution.
     if (any(solution%state /= exact%state .and. proof%state_proved)) fault = trim(fault)//' a state;'
-    if (count(proof%state_proved) <= size(exact%state)/2) fault = trim(fault)//' only '//text(count(proof%state_proved)) &
+    if (count(proof%state_proved) <= size(exact%state)/2) fault = trim(fault)//' only ' &
+                                                                  //text(count(proof%state_proved)) &
                                                                   //' states;'
   end function unproved
 

@@ -1,10 +1,10 @@
 !> Bounds of the eigenvalues of convolutions and of the rounding of their products.
 !>
-!> A convolution on a circle multiplies waves by eigenvalues, and its compression to some of the cells, a Toeplitz matrix,
-!> has no eigenvalue beyond them. A transform of N values is off, in the 2-norm, by at most log2(N) small multiples of the
-!> unit roundoff (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, theorem 24.2, for powers of two);
-!> the multiples here hold for butterflies of any prime up to 13 with p terms in each sum. FFTW has other algorithms for
-!> larger primes, of which nothing is said here.
+!> A convolution on a circle multiplies waves by eigenvalues, and its compression to some of the cells, a Toeplitz
+!> matrix, has no eigenvalue beyond them. A transform of N values is off, in the 2-norm, by at most log2(N) small
+!> multiples of the unit roundoff (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, theorem 24.2, for
+!> powers of two); the multiples here hold for butterflies of any prime up to 13 with p terms in each sum. FFTW has
+!> other algorithms for larger primes, of which nothing is said here.
 module fuge_spectrum_bounds
   use fuge_kinds, only: dp
   implicit none
