@@ -218,7 +218,7 @@ contains
 
     stat = 0
     call find_terms(contact, enclosure, corrected, terms)
-    if (any(terms > corrected%most)) then
+    if (any(2.0_dp*terms > corrected%most)) then
       call start_sums(contact, enclosure, corrected, stat)
       return
     end if

@@ -83,6 +83,10 @@ contains
       balanced%claimed_force = solution%force
       balanced%claimed_gap = solution%gap
       call balance(problem, solution, balanced)
+      if (.not. balanced%missing < huge(1.0_dp)) reason = &
+        'no point in contact is far enough from its limits to take what the forces lack of the load'
+    end if
+    if (reason == '') then
       call find_gaps(operator, problem, solution, bounds, balanced, info)
       if (.not. info%failed()) call find_own_displacement(operator, problem, bounds, balanced, info)
       if (info%failed()) return
@@ -252,12 +256,10 @@ contains
     balanced%energy_error = raised(norm/sqrt(least_of(problem, bounds)), 5)
     balanced%displacement_error = raised(min(balanced%energy_error*sqrt(balanced%own_displacement), &
                                              bounds%most*balanced%force_error), 4)
-    if (.not. balanced%missing < huge(1.0_dp)) then
-      reason = 'no point in contact is far enough from its limits to take what the forces lack of the load'
-    else if (.not. balanced%force_error <= sqrt(huge(1.0_dp))) then
+    if (.not. balanced%force_error <= sqrt(huge(1.0_dp))) then
       reason = 'the bounds are out of the range of double precision: choose other units'
+      return
     end if
-    if (reason /= '') return
     if (.not. is_balanced(problem)) return
     ! The mean of the gaps of points that are certainly at stops gives the motion.
     certain = 0
