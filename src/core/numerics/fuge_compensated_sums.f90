@@ -18,7 +18,7 @@ module fuge_compensated_sums
 
 contains
 
-  !> A power of two so large that sums up to `most` do not change the exponent of what is added to it.
+  !> Three times a power of two, so large that sums up to `most` do not change the exponent of what is added to it.
   pure function bias_above(most) result(bias)
     real(dp), intent(in) :: most
     real(dp) :: bias

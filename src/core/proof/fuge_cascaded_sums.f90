@@ -12,7 +12,8 @@ module fuge_cascaded_sums
   implicit none
   private
 
-  !> The fraction of the sum of the terms that the rounding of products takes, and more than each term adds to it.
+  !> The fraction of the sum of the terms that the rounding of products and of the last addition takes, and more than
+  !> each term adds to it.
   real(dp), parameter :: FROM_PRODUCTS = 2.0_dp**(-102), FROM_SUMS = 2.0_dp**(-120)
   !> The second and the third part are below these fractions of the sum of the terms.
   real(dp), parameter :: SECOND_PART = 2.0_dp**(-23), THIRD_PART = 2.0_dp**(-46)

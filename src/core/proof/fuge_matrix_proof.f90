@@ -85,7 +85,12 @@ contains
       call fill_proof(contact, problem, solution, claims, enclosure, proof)
       proof%state_proved = certain .and. states == [(state_of(problem, solution, k), k=1, contact%points)]
     end if
-    call report_states(certain, enclosure%is_enclosed, is_proved, info)
+    if (enclosure%in_range) then
+      call report_states(certain, enclosure%is_enclosed, is_proved, info)
+    else
+      call report(info, FUGE_WARN_NOT_PROVED, 'a play or a limit at which a point is said to be is out of range ' &
+                  //'beside the other numbers: leave it out')
+    end if
   end subroutine prove_states
 
   !> Say which states are not `certain`, and why nothing is proved, unless it is.
@@ -152,6 +157,7 @@ contains
     allocate (matrix(p, p), stat=stat)
     if (stat /= 0) return
     call fill_equations(contact, enclosure%place, enclosure%motion_place, matrix)
+    ! What the rounding of A + D took is less than the roundings that the inverse counts beyond those of its products.
     call inverse%find(matrix, stat)
   end subroutine invert_equations
 
@@ -197,9 +203,12 @@ contains
       range = enclosure%gap_range(k)
       power = contact%point_power(k) - contact%unit
     end if
+    ! Ends that are not in range in scaled units are as good as infinite.
     ends = [-huge(1.0_dp), huge(1.0_dp)]
-    if (claim%least > -huge(1.0_dp)) ends(1) = scale(claim%least, power)
-    if (claim%most < huge(1.0_dp)) ends(2) = scale(claim%most, power)
+    if (exponent(claim%least) + power < maxexponent(1.0_dp)) ends(1) = scale(claim%least, power)
+    if (exponent(claim%most) + power < maxexponent(1.0_dp)) ends(2) = scale(claim%most, power)
+    if (.not. claim%least > -huge(1.0_dp)) ends(1) = -huge(1.0_dp)
+    if (.not. claim%most < huge(1.0_dp)) ends(2) = huge(1.0_dp)
   end subroutine find_ranges
 
   !> Put points whose gaps are not certain at the stop that is next to them.

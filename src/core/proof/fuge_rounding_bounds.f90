@@ -59,7 +59,7 @@ contains
     end do
   end subroutine absolute_sums
 
-  !> An upper bound of the 2-norm, whose squares neither overflow nor underflow.
+  !> An upper bound of the 2-norm, whose squares neither overflow nor underflow; huge of what is not finite.
   pure function norm_bound(values) result(bound)
     real(dp), intent(in) :: values(:)
     real(dp) :: bound
@@ -68,6 +68,9 @@ contains
     bound = 0.0_dp
     if (size(values) < 1) return
     largest = maxval(abs(values))
+    bound = huge(1.0_dp)
+    if (.not. all(abs(values) <= huge(1.0_dp))) return
+    bound = 0.0_dp
     if (.not. largest > 0.0_dp) return
     bound = raised(largest*sqrt(sum((values/largest)**2)), size(values) + 8)
   end function norm_bound

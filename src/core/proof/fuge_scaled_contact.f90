@@ -17,6 +17,8 @@ module fuge_scaled_contact
 
   !> Weight of a free motion, for coefficients and rigid displacements up to 1: more than a datum of A can take.
   real(dp), parameter :: WEIGHT = 2.0_dp
+  !> The power of zero: below all others, which can be subtracted from it.
+  integer, parameter :: NO_POWER = -2**30
   !> Factors below 2 to this power and their products are in range.
   integer, parameter :: MOST_POWER = 400
   !> How often it is raised, by a factor of four.
@@ -46,6 +48,7 @@ module fuge_scaled_contact
     logical, allocatable :: included(:), free(:)
   contains
     procedure :: prove_uniqueness
+    procedure :: is_in_range
     procedure :: scaled_force
     procedure :: scaled_length
     procedure :: force_of
@@ -309,7 +312,8 @@ contains
                   largest_power(contact%force, -contact%point_power), &
                   largest_power(contact%motion, -contact%motion_power), &
                   largest_power(contact%resultant, contact%motion_power))
-    contact%unit = max(largest, -10000)
+    contact%unit = 0
+    if (largest > NO_POWER) contact%unit = largest
     contact%gap = contact%scaled_length(contact%gap)
     contact%claimed_gap = contact%scaled_length(contact%claimed_gap)
     contact%force = contact%scaled_force(contact%force)
@@ -323,8 +327,18 @@ contains
     integer, intent(in) :: power(:)
     integer :: largest
 
-    largest = maxval([-huge(largest), exponent(values) + power], [.true., abs(values) > 0.0_dp])
+    largest = maxval([NO_POWER, exponent(values) + power], [.true., abs(values) > 0.0_dp])
   end function largest_power
+
+  !> Are these forces and lengths of all points far from overflow in scaled units?
+  pure function is_in_range(self, force, length)
+    class(scaled_contact), intent(in) :: self
+    real(dp), intent(in) :: force(:), length(:)
+    logical :: is_in_range
+
+    is_in_range = largest_power(force, -self%point_power) - self%unit < MOST_POWER &
+                  .and. largest_power(length, self%point_power) - self%unit < MOST_POWER
+  end function is_in_range
 
   !> Forces of all points in scaled units.
   pure function scaled_force(self, force) result(scaled)

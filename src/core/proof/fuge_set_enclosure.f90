@@ -34,8 +34,8 @@ module fuge_set_enclosure
   type, public :: set_enclosure
     !> Points at stops, and free motions: the unknowns, in this order.
     integer, allocatable :: place(:), motion_place(:)
-    !> Is there one solution for the states?
-    logical :: is_enclosed = .false.
+    !> Is there one solution for the states? And are what the states give of forces and gaps in range?
+    logical :: is_enclosed = .false., in_range = .true.
     !> What is claimed: forces, known ones where they are, and gaps, those of the stops, (n).
     real(dp), allocatable :: force(:), gap(:)
     !> Changes and radii of forces, gaps (n) and motions (m).
@@ -83,6 +83,9 @@ contains
     if (stat /= 0) return
     enclosure%place = pack([(k, k=1, n)], claims%at_stop)
     enclosure%motion_place = pack([(k, k=1, m)], contact%free)
+    enclosure%in_range = contact%is_in_range(merge(0.0_dp, claims%known, claims%at_stop), &
+                                             merge(claims%known, 0.0_dp, claims%at_stop))
+    if (.not. enclosure%in_range) return
     enclosure%force = contact%scaled_force(merge(0.0_dp, claims%known, claims%at_stop))
     where (claims%at_stop) enclosure%force = contact%force
     enclosure%gap = contact%scaled_length(merge(claims%known, 0.0_dp, claims%at_stop))
@@ -91,7 +94,7 @@ contains
     if (stat == 0 .and. energy%is_held) call factor%find(contact, enclosure%place, enclosure%motion_place, stat)
     if (stat /= 0 .or. .not. factor%is_found) return
     call correct(contact, enclosure, factor, energy, corrected, points, motions, stat)
-    enclosure%is_enclosed = max(points, motions) <= huge(1.0_dp)
+    enclosure%is_enclosed = points < huge(1.0_dp) .and. motions < huge(1.0_dp)
     if (stat == 0 .and. enclosure%is_enclosed) call take_corrections(contact, corrected, points, motions, enclosure)
   end subroutine enclose_set
 
@@ -116,6 +119,10 @@ contains
     do
       if (stat /= 0) return
       call find_residual(contact, corrected)
+      if (.not. all(abs(corrected%residual(unknowns)) <= huge(1.0_dp))) then
+        points = huge(1.0_dp)
+        return
+      end if
       associate (k => size(enclosure%place), left => abs(corrected%residual(unknowns)) + corrected%error(unknowns))
         call energy%bound(norm_bound(raised(left(:k), 2)), norm_bound(raised(left(k + 1:), 2)), points, motions)
       end associate

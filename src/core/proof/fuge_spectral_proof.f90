@@ -158,10 +158,9 @@ contains
     load = problem%resultants()
     lack = raised(abs(load(1) - compensated_sum(balanced%force)) + sum_error(balanced%force) &
                   + 2.0_dp*UNIT_ROUNDOFF*abs(load(1)), 4)
-    balanced%missing = lack/real(max(count(balanced%inner), 1), dp)
-    if (.not. any(balanced%inner) .and. lack > 0.0_dp) balanced%missing = huge(1.0_dp)
+    balanced%missing = raised(lack/real(max(count(balanced%inner), 1), dp), 3)
     if (balanced%missing > margin) balanced%missing = huge(1.0_dp)
-    balanced%missing = min(raised(balanced%missing, 2), huge(1.0_dp))
+    if (lack > 0.0_dp .and. .not. any(balanced%inner)) balanced%missing = huge(1.0_dp)
   end subroutine balance
 
   !> How far the compensated sum of values is off at most.
