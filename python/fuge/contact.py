@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -70,7 +71,7 @@ class Contact:
         The cells of the operator, if its points are equal cells.
     proof : Proof or None
         Bounds of the errors of forces, gaps and motions, if :func:`solve` was asked for them by ``prove=True``;
-        :meth:`Solver.prove` gives them otherwise.
+        :meth:`prove` gives them otherwise.
     """
 
     force: NDArray[np.float64]
@@ -82,6 +83,26 @@ class Contact:
     message: str
     cells: Cells | None = None
     proof: Proof | None = None
+    _prove: Callable[[Contact], Proof] | None = field(default=None, repr=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_prove": None}
+
+    def prove(self) -> Proof:
+        """Bounds of the error of each force, gap and motion, rounding included: those of :meth:`Solver.prove`.
+
+        For a solution with a `proof`, and for the last one of a solver that is still there.
+
+        Raises
+        ------
+        CallOrderError
+            The solver has gone, or has solved another problem since.
+        """
+        if self.proof is not None:
+            return self.proof
+        if self._prove is None:
+            raise no_solver()
+        return self._prove(self)
 
     @property
     def pressure(self) -> NDArray[np.float64]:
@@ -147,6 +168,15 @@ class Derivative:
     force: NDArray[np.float64]
     gap: NDArray[np.float64]
     motion: NDArray[np.float64]
+
+
+def no_solver() -> Exception:
+    """The error of a solution whose solver cannot prove it."""
+    return error(
+        Status.ERR_CALL_ORDER,
+        "the solver of this solution has gone, or has solved another problem since: pass prove=True to fuge.solve, or "
+        "call prove before the solver solves again",
+    )
 
 
 @dataclass(frozen=True, eq=False)

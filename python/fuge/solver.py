@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import weakref
 from dataclasses import replace
 from typing import Any, Callable, ContextManager, Literal, Mapping
 
@@ -15,7 +16,7 @@ from fuge._library import function, struct
 from fuge._messages import in_python
 from fuge._words import Words
 from fuge.cases import Cases
-from fuge.contact import Contact, Derivative, History, Info, info_of
+from fuge.contact import Contact, Derivative, History, Info, info_of, no_solver
 from fuge.errors import GridWarning, Status, error, warn
 from fuge.operators import DenseOperator, Operator
 from fuge.path import Path, check_matrix, collect_path
@@ -113,6 +114,7 @@ class Solver(Owner):
         read = self.operator._handle
         arguments = [read.pointer, ctypes.byref(options)]
         self._handle = new_handle("solver", "fuge_solver_new", "fuge_solver_free", *arguments, needs=[read])
+        self._found: weakref.ref[Contact] | None = None
         self.set_progress(progress)
 
     @property
@@ -288,6 +290,7 @@ class Solver(Owner):
         LimitError, UnsupportedError, CallbackError, CancelledError
         """
         handle = self._handle
+        self._found = None
         with interruptible(), self._reading(), handle.use() as pointer:
             code = function("fuge_solve")(pointer)
             message = in_python(self._read_message(pointer), self._shapes)
@@ -344,6 +347,7 @@ class Solver(Owner):
         if not sizes or sizes[0] != sizes[-1]:
             raise error(Status.ERR_SIZE, "load cases need gap or load, or both with a row for each case")
         number = sizes[0]
+        self._found = None
         force, found = np.full((number, self.n), np.nan), np.full((number, self.n), np.nan)
         motion, status = np.full((number, m), np.nan), np.zeros(number, dtype=np.intc)
         state = np.zeros((number, self.n), dtype=np.intc)
@@ -508,7 +512,23 @@ class Solver(Owner):
         self._get("fuge_get_resultant", pointer, resultant)
         self._get("fuge_get_states", pointer, state)
         self._get("fuge_get_info", pointer, ctypes.byref(report))
-        return Contact(force, gap, motion, resultant, state, info_of(report), message, self.operator.cells)
+        contact = Contact(
+            force, gap, motion, resultant, state, info_of(report), message, self.operator.cells, _prove=self._prover()
+        )
+        self._found = weakref.ref(contact)
+        return contact
+
+    def _prover(self) -> Callable[[Contact], Proof]:
+        """Proves a solution as long as it is the last one of this solver, which it does not keep alive."""
+        here = weakref.ref(self)
+
+        def prove(contact: Contact) -> Proof:
+            solver = here()
+            if solver is None or solver._found is None or solver._found() is not contact:
+                raise no_solver()
+            return solver.prove()
+
+        return prove
 
     def _get_case(self, name: str, pointer: ctypes.c_void_p, *arguments: Any) -> None:
         end_call(function(name)(pointer, *arguments), lambda: self._read_message(pointer))

@@ -520,6 +520,21 @@ class Proofs(unittest.TestCase):
         other = pickle.loads(pickle.dumps(contact))
         np.testing.assert_array_equal(other.proof.gap_bound, contact.proof.gap_bound)
 
+    def test_proof_of_a_contact(self):
+        solver, contact = self.solved()
+        self.assertLess(contact.prove().force_bound.max(), 1e-15)
+        done = fuge.solve(ALPHA, GAP, 2.0, prove=True)
+        self.assertIs(done.prove(), done.proof)
+        self.assertTrue(copy.deepcopy(done).prove().bounded)
+        # Another solution, no solution, a copy, and no solver any more.
+        solver.solve()
+        self.assertRaisesRegex(fuge.CallOrderError, "solved another problem", contact.prove)
+        contact = solver.solve()
+        self.assertRaises(fuge.CallOrderError, pickle.loads(pickle.dumps(contact)).prove)
+        solver.set_load(1.0)
+        self.assertRaises(fuge.CallOrderError, contact.prove)
+        self.assertRaisesRegex(fuge.CallOrderError, "prove=True", fuge.solve(ALPHA, GAP, 2.0).prove)
+
     def test_a_border(self):
         # The second point just touches.
         with warnings.catch_warnings():
