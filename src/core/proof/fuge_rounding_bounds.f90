@@ -5,6 +5,7 @@
 !> Numerical Algorithms, 2002, section 3.1), as long as nothing underflows. What may underflow is a product of numbers
 !> that are scaled to at most about 1, and is covered by LEAST.
 module fuge_rounding_bounds
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
   implicit none
   private
@@ -67,9 +68,9 @@ contains
 
     bound = 0.0_dp
     if (size(values) < 1) return
-    largest = maxval(abs(values))
     bound = huge(1.0_dp)
-    if (.not. all(abs(values) <= huge(1.0_dp))) return
+    if (.not. all(ieee_is_finite(values))) return
+    largest = maxval(abs(values))
     bound = 0.0_dp
     if (.not. largest > 0.0_dp) return
     bound = raised(largest*sqrt(sum((values/largest)**2)), size(values) + 8)

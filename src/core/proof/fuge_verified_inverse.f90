@@ -53,7 +53,8 @@ contains
     call find_defect(self%approximate, matrix, defect)
     v = 1.0_dp
     do step = 1, MOST_STEPS
-      call bound_defect(self%approximate, matrix, defect, v, self%defect, radius)
+      call bound_defect(self%approximate, matrix, defect, v, self%defect)
+      if (present(radius)) call add_radius(self%approximate, radius, v, self%defect)
       if (.not. all(self%defect <= huge(1.0_dp))) exit
       if (all(self%defect <= SMALL_DEFECT*v)) exit
       if (step < MOST_STEPS) v = max(self%defect/maxval(self%defect), LEAST_WEIGHT)
@@ -105,27 +106,34 @@ contains
     call dgemm('N', 'N', p, p, p, -1.0_dp, inverse, p, matrix, p, 1.0_dp, defect, p)
   end subroutine find_defect
 
-  !> An upper bound of |G| v for all matrices within the `radius`.
-  subroutine bound_defect(inverse, matrix, defect, v, bound, radius)
+  !> An upper bound of |G| v.
+  subroutine bound_defect(inverse, matrix, defect, v, bound)
     real(dp), intent(in), contiguous :: inverse(:, :), matrix(:, :), defect(:, :)
     real(dp), intent(in) :: v(:)
     real(dp), intent(out) :: bound(:)
-    real(dp), intent(in), contiguous, optional :: radius(:, :)
-    real(dp) :: image(size(v)), rounding(size(v)), spread(size(v))
+    real(dp) :: image(size(v)), rounding(size(v))
     integer :: p
 
     p = size(v)
     call absolute_product(matrix, v, image)
     image = gamma_bound(p + 4)*image
-    if (present(radius)) then
-      call absolute_product(radius, v, spread)
-      image = image + spread
-    end if
     call absolute_product(inverse, raised(image, 3), rounding)
     call absolute_product(defect, v, bound)
     ! The subtraction from 1 rounds too.
     bound = raised(bound + rounding + gamma_bound(p + 4)*v, 4)
   end subroutine bound_defect
+
+  !> Add to the bound of |G| v what it may be more for matrices within the `radius`: |Y| radius v.
+  subroutine add_radius(inverse, radius, v, bound)
+    real(dp), intent(in), contiguous :: inverse(:, :), radius(:, :)
+    real(dp), intent(in) :: v(:)
+    real(dp), intent(inout) :: bound(:)
+    real(dp) :: more(size(v)), spread(size(v))
+
+    call absolute_product(radius, v, spread)
+    call absolute_product(inverse, spread, more)
+    bound = raised(bound + more, 2)
+  end subroutine add_radius
 
   !> How far column `j` of the inverse is at most from that of Y, (p).
   pure function column_error(self, j) result(error)
