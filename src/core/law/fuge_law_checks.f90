@@ -24,13 +24,16 @@ contains
     call check_count(limits, expected, name, info)
     if (info%failed() .or. .not. allocated(limits)) return
     do k = 1, size(limits)
-      if (ieee_is_nan(limits(k))) then
-        call report(info, FUGE_ERR_NOT_FINITE, name//'('//index_text(k)//') is NaN: use infinity for a force without ' &
-                    //'a limit')
-      else if (limits(k) < 0.0_dp) then
-        call report(info, FUGE_ERR_LAW, name//'('//index_text(k)//') = '//text(limits(k))//' is negative: a limit is ' &
-                    //'the size of a force; 0 for none, infinity without a limit')
-      end if
+      ! The caller's arrays may begin with another number than 1.
+      associate (limit => limits(lbound(limits, 1) + k - 1))
+        if (ieee_is_nan(limit)) then
+          call report(info, FUGE_ERR_NOT_FINITE, name//'('//index_text(k)//') is NaN: use infinity for a force ' &
+                      //'without a limit')
+        else if (limit < 0.0_dp) then
+          call report(info, FUGE_ERR_LAW, name//'('//index_text(k)//') = '//text(limit)//' is negative: a limit is ' &
+                      //'the size of a force; 0 for none, infinity without a limit')
+        end if
+      end associate
       if (info%failed()) return
     end do
   end subroutine check_limits
@@ -47,16 +50,18 @@ contains
     call check_count(values, expected, name, info)
     if (info%failed() .or. .not. allocated(values)) return
     do k = 1, size(values)
-      if (.not. ieee_is_finite(values(k))) then
-        call report(info, FUGE_ERR_NOT_FINITE, name//'('//index_text(k)//') = '//text(values(k)) &
-                    //' is not a finite number')
-      else if (values(k) < 0.0_dp) then
-        call report(info, FUGE_ERR_LAW, name//'('//index_text(k)//') = '//text(values(k))//' is negative: a spring ' &
-                    //'resists, so it must be >= 0')
-      else if (exponent(values(k)) > LARGEST_EXPONENT) then
-        call report(info, FUGE_ERR_OVERFLOW, name//'('//index_text(k)//') = '//text(values(k)) &
-                    //': choose units in which it is smaller')
-      end if
+      associate (value => values(lbound(values, 1) + k - 1))
+        if (.not. ieee_is_finite(value)) then
+          call report(info, FUGE_ERR_NOT_FINITE, name//'('//index_text(k)//') = '//text(value) &
+                      //' is not a finite number')
+        else if (value < 0.0_dp) then
+          call report(info, FUGE_ERR_LAW, name//'('//index_text(k)//') = '//text(value)//' is negative: a spring ' &
+                      //'resists, so it must be >= 0')
+        else if (exponent(value) > LARGEST_EXPONENT) then
+          call report(info, FUGE_ERR_OVERFLOW, name//'('//index_text(k)//') = '//text(value) &
+                      //': choose units in which it is smaller')
+        end if
+      end associate
       if (info%failed()) return
     end do
   end subroutine check_stiffnesses
