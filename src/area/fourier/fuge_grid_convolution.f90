@@ -43,7 +43,7 @@ module fuge_grid_convolution
       end if
     end do
     bounds%constant = kernel%spectrum(first, lbound(kernel%spectrum, 2))
-    bounds%squares = bounds%squares + bounds%constant**2
+    bounds%together = hypot(bounds%together, bounds%constant)
     call bounds%scale_by(kernel%unit*circle_factor(plan, kernel%padded))
   end subroutine find_bounds
 

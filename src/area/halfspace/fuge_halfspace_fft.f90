@@ -15,14 +15,11 @@ module fuge_halfspace_fft
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator, operator_bounds
   use fuge_single_grid_plan, only: single_plan => grid_plan
-  use fuge_spectrum_bounds, only: spectrum_bounds, transform_rounding
+  use fuge_spectrum_bounds, only: spectrum_bounds, transform_rounding, WAVE_ERROR
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
   use fuge_wave_mixture, only: wave_mixture
   implicit none
   private
-
-  !> Eigenvalues of a periodic surface are off by at most this fraction.
-  real(dp), parameter :: WAVE_ERROR = 2.0_dp**(-46)
 
   !> Equal rectangles in a grid on a half-space: call `set`, then solve. It keeps the coarser grids of its
   !> solves, which takes a third of the memory again. Coefficients are computed when a solve first needs them, on a
@@ -422,7 +419,7 @@ contains
     type(operator_bounds), intent(out) :: bounds
     integer, intent(out) :: status
     type(spectrum_bounds) :: waves
-    real(dp) :: error, transform
+    real(dp) :: error, transform, transforms(2)
 
     status = merge(FUGE_DONE, FUGE_ERR_CALL_ORDER, self%points() > 0)
     if (status /= FUGE_DONE .or. self%surface%body%is_set() .or. is_large(self%surface)) return
@@ -431,10 +428,11 @@ contains
     if (status /= FUGE_DONE) return
     associate (kernel => self%store%kernels%influence)
       call find_bounds(kernel, self%plan, waves)
-      transform = transform_rounding(self%plan%length(1)*merge(2, 1, kernel%padded(1))) &
-                  + transform_rounding(self%plan%length(2)*merge(2, 1, kernel%padded(2)))
+      transforms = [transform_rounding(self%plan%length(1)*merge(2, 1, kernel%padded(1))), &
+                    transform_rounding(self%plan%length(2)*merge(2, 1, kernel%padded(2)))]
     end associate
-    if (.not. transform < 1.0_dp) return
+    if (.not. all(transforms < 1.0_dp)) return
+    transform = sum(transforms)
     bounds%most = max(waves%most, abs(waves%constant))
     error = WAVE_ERROR*bounds%most
     ! All coefficients of a free surface are positive, so that their sum is the largest eigenvalue.

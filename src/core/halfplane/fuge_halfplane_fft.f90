@@ -16,16 +16,13 @@ module fuge_halfplane_fft
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator, operator_bounds
   use fuge_point_chunks, only: chunk_count, chunked_pass
-  use fuge_spectrum_bounds, only: transform_rounding
+  use fuge_spectrum_bounds, only: transform_rounding, WAVE_ERROR
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY
   use fuge_wave_mixture, only: wave_mixture
   implicit none
   private
 
   public :: FUGE_FREE, FUGE_PERIODIC
-
-  !> Eigenvalues of a periodic surface are off by at most this fraction.
-  real(dp), parameter :: WAVE_ERROR = 2.0_dp**(-46)
 
   !> Equal cells side by side on a half-plane: call `set`, then solve. It keeps the coarser grids of its
   !> solves, which takes as much memory again.

@@ -77,7 +77,7 @@ contains
       return
     end if
     self%length = length
-    self%bounds = spectrum_bounds(constant=spectrum(0), squares=spectrum(0)**2)
+    self%bounds = spectrum_bounds(constant=spectrum(0), together=abs(spectrum(0)))
     call self%bounds%add_waves(spectrum(1:), 2)
     call self%bounds%scale_by(real(length, dp))
     if (rows > 0) then

@@ -12,6 +12,8 @@ module fuge_spectrum_bounds
 
   public :: transform_rounding
 
+  !> Eigenvalues of a periodic surface are off by at most this fraction.
+  real(dp), parameter, public :: WAVE_ERROR = 2.0_dp**(-46)
   real(dp), parameter :: UNIT_ROUNDOFF = 0.5_dp*epsilon(1.0_dp)
   !> Units in the last place for each factor of two, and for packing real numbers and multiplying by roots of unity.
   real(dp), parameter :: FACTOR_OF_TWO = 8.0_dp, PACKING = 24.0_dp
@@ -19,8 +21,8 @@ module fuge_spectrum_bounds
 
   !> The eigenvalues of a convolution.
   type, public :: spectrum_bounds
-    !> That of the constant, the least and the largest magnitude of the others, and the sum of the squares of all.
-    real(dp) :: constant = 0.0_dp, least = huge(1.0_dp), most = 0.0_dp, squares = 0.0_dp
+    !> That of the constant, the least and the largest magnitude of the others, and the 2-norm of all together.
+    real(dp) :: constant = 0.0_dp, least = huge(1.0_dp), most = 0.0_dp, together = 0.0_dp
   contains
     procedure :: add_waves
     procedure :: scale_by
@@ -34,11 +36,15 @@ contains
     class(spectrum_bounds), intent(inout) :: self
     real(dp), intent(in) :: eigenvalues(:)
     integer, intent(in) :: times
+    real(dp) :: largest
 
     if (size(eigenvalues) < 1) return
     self%least = min(self%least, minval(eigenvalues))
-    self%most = max(self%most, maxval(abs(eigenvalues)))
-    self%squares = self%squares + real(times, dp)*sum(eigenvalues**2)
+    largest = maxval(abs(eigenvalues))
+    self%most = max(self%most, largest)
+    ! As fractions of the largest, because squares of compliances may be out of range.
+    if (largest > 0.0_dp) self%together = hypot(self%together, &
+                                                largest*sqrt(real(times, dp)*sum((eigenvalues/largest)**2)))
   end subroutine add_waves
 
   !> Multiply all eigenvalues by a positive `factor`.
@@ -49,15 +55,15 @@ contains
     self%constant = factor*self%constant
     if (self%least < huge(1.0_dp)) self%least = factor*self%least
     self%most = factor*self%most
-    self%squares = factor**2*self%squares
+    self%together = factor*self%together
   end subroutine scale_by
 
-  !> The 2-norm of all eigenvalues together.
+  !> An upper bound of the 2-norm of all eigenvalues together.
   pure function norm(self)
     class(spectrum_bounds), intent(in) :: self
     real(dp) :: norm
 
-    norm = 1.001_dp*sqrt(self%squares)
+    norm = 1.001_dp*self%together
   end function norm
 
   !> By how much a transform of `length` real values, or of half as many complex ones, is off at most, relative to the
