@@ -30,6 +30,8 @@ enum {
   FUGE_WARN_NO_CONTACT = 5,        /* done, but no point touches and all gaps open */
   FUGE_WARN_CASES = 6,             /* done, but some load cases failed or have a warning */
   FUGE_WARN_NOT_PROVED = 7,        /* done, but the solution is not proved */
+  FUGE_WARN_KINK = 8,              /* done, but at a kink: the gradient is that of one side */
+  FUGE_WARN_UNREACHABLE = 9,       /* done, but for other forces: those wanted are not possible */
   FUGE_ERR_SIZE = -1,              /* a size or an index is invalid, or arrays differ in length:
                                       n < 1, lda < n, a range beyond the last entry */
   FUGE_ERR_POINTER = -2,           /* a required pointer is NULL, or an array is not contiguous */
@@ -622,6 +624,56 @@ int fuge_get_derivatives(const fuge_solver *s, const double *gap_change, const d
  * points. */
 int fuge_prove(const fuge_solver *s, double *force_bound, double *gap_bound,
                double *motion_bound, int *proved);
+
+/* ---- design ------------------------------------------------------------- */
+
+/* The gradient of an objective J at the last solution, over all gaps and loads at once: the reverse
+ * of fuge_get_derivatives, in the time of one call of it, whatever the number of data.  It is exact
+ * as long as the contact set does not change.
+ *   force_weight   n, dJ/df; NULL if J does not depend on the forces; unit of J per force
+ *   gap_weight     n, dJ/dc, by the gaps under load, NULL as above; unit of J per length
+ *   motion_weight  m, dJ/dq, NULL as above
+ *   gap_gradient   out  n, dJ/dg, by the initial gaps; unit of J per length
+ *   load_gradient  out  m, dJ/dw, by the resultants; where a motion is prescribed, by the motion
+ * The last two may be NULL, and may be arrays of the weights.  FUGE_WARN_KINK, unless the solve had
+ * a warning, which holds for the gradient too: points lie on the border between two states, as one
+ * that touches without force, and the gradient is that of one side of a kink.  After the iteration
+ * products on the contact set, and one more for weights of gaps.  Errors as for
+ * fuge_get_derivatives; FUGE_ERR_NO_EQUILIBRIUM if J depends on a motion that the contact does not
+ * resist; those of the product. */
+int fuge_get_adjoint(const fuge_solver *s, const double *force_weight, const double *gap_weight,
+                     const double *motion_weight, double *gap_gradient, double *load_gradient);
+
+/* As fuge_get_adjoint, with the gradients by all other data; each of them may be NULL.
+ *   compliance        out  n, by the compliances; where there is none, by the first bit of one
+ *   motion_stiffness  out  m, by the springs on the motions; 0 where a motion is prescribed
+ *   gap_upper         out  n, by the plays
+ *   limit             out  n, by the limits of the forces
+ *   limit_upper       out  n, by the limits at the upper stops
+ *   log_modulus       out  1, e_star*dJ/de_star: by the logarithm of the modulus to which all
+ *                          displacements by contact forces are inversely proportional; unit of J
+ *   at_kink           out  n, 1 for a point on the border between two states, else 0
+ * The gradient by a coefficient of the influence matrix is gap[i]*force[j]. */
+int fuge_get_gradients(const fuge_solver *s, const double *force_weight, const double *gap_weight,
+                       const double *motion_weight, double *gap, double *load, double *compliance,
+                       double *motion_stiffness, double *gap_upper, double *limit,
+                       double *limit_upper, double *log_modulus, int *at_kink);
+
+/* The initial gaps that give wanted contact forces, by one product.  The modes, prescribed motions
+ * and laws of the solver count, its gaps and resultants do not, and stay.
+ *   force      n, wanted; force: pressures times the areas of the points
+ *   clearance  >= 0, the gap that is left under load where no force is wanted; length; with 0
+ *              these points just touch
+ *   gap        out  n, for fuge_set_gap; length.  With one free translation the smallest is 0,
+ *                   otherwise free motions will be 0
+ *   reached    out  n, forces that these gaps give; NULL if not needed
+ *   resultant  out  m, their resultants, the loads that belong to them; NULL if not needed
+ * FUGE_WARN_UNREACHABLE if a point cannot have its force: none that pulls at a lower stop, none
+ * beyond a limit, none where excluded.  Its nearest one is taken then; the message has the number
+ * of such points and the first.  FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_GAP for a negative
+ * clearance, FUGE_ERR_MEMORY, those of the product. */
+int fuge_gap_for_pressure(const fuge_solver *s, const double *force, double clearance, double *gap,
+                          double *reached, double *resultant);
 
 /* Report of the last fuge_solve, failed or not; FUGE_ERR_CALL_ORDER before the first. */
 int fuge_get_info(const fuge_solver *s, fuge_info *info);

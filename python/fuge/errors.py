@@ -27,6 +27,8 @@ class Status(Constants):
     WARN_NO_CONTACT = auto()
     WARN_CASES = auto()
     WARN_NOT_PROVED = auto()
+    WARN_KINK = auto()
+    WARN_UNREACHABLE = auto()
     ERR_SIZE = auto()
     ERR_POINTER = auto()
     ERR_NOT_FINITE = auto()
@@ -164,6 +166,14 @@ class NotProvedWarning(Warning):
     """Bounds of the error of a solution are infinite, because they cannot be proved; the solution stays as it is."""
 
 
+class KinkWarning(Warning):
+    """Points lie on the border between two states, so the objective has a kink: the gradient is that of one side."""
+
+
+class UnreachableWarning(Warning):
+    """Some points cannot have the pressure wanted; the gaps are those for the nearest one that they can have."""
+
+
 class GridWarning(Warning):
     """The contact reaches the rim of its grid: unless the bodies end there, the grid is too small.
 
@@ -194,6 +204,8 @@ _WARNINGS: dict[Status, type[Warning]] = {
     Status.WARN_NO_CONTACT: NoContactWarning,
     Status.WARN_CASES: CasesWarning,
     Status.WARN_NOT_PROVED: NotProvedWarning,
+    Status.WARN_KINK: KinkWarning,
+    Status.WARN_UNREACHABLE: UnreachableWarning,
 }
 
 _PACKAGE = str(Path(__file__).parent)

@@ -1,5 +1,6 @@
 !> The public interface of the component core: contact problems, their operators and solvers, and the half-plane.
 module fuge_core
+  use fuge_adjoint_solution, only: fuge_solve_adjoint
   use fuge_case_envelope, only: fuge_envelope, fuge_find_envelope
   use fuge_cases_solution, only: fuge_solve_cases
   use fuge_cell_grading, only: fuge_graded_cells, FUGE_END_CORNER, FUGE_END_EDGE, FUGE_END_PLAIN
@@ -11,6 +12,7 @@ module fuge_core
     FUGE_EDGE_SINGULAR, FUGE_EDGE_GRID_END, FUGE_EDGE_LIMITED
   use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, &
     FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS
+  use fuge_gradients_type, only: fuge_gradients
   use fuge_halfplane_fft, only: fuge_halfplane_operator
   use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
   use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
@@ -29,7 +31,7 @@ module fuge_core
   use fuge_solver_type, only: fuge_solver, fuge_solve_dense
   use fuge_status, only: fuge_info, fuge_status_text, FUGE_MESSAGE_LENGTH, FUGE_DONE, FUGE_WARN_RESIDUAL, &
     FUGE_WARN_NOT_UNIQUE, FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_PAIRS, FUGE_WARN_NO_CONTACT, FUGE_WARN_CASES, &
-    FUGE_WARN_NOT_PROVED, &
+    FUGE_WARN_NOT_PROVED, FUGE_WARN_KINK, FUGE_WARN_UNREACHABLE, &
     FUGE_ERR_SIZE, FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, &
     FUGE_ERR_GRID, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_ITERATION_LIMIT, &
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_CALLBACK, &
@@ -37,6 +39,7 @@ module fuge_core
     FUGE_ERR_LAW
   use fuge_unbalanced_motion, only: fuge_find_unbalanced_motion
   use fuge_version_number, only: FUGE_VERSION
+  use fuge_wanted_pressure, only: fuge_gap_for_pressure, fuge_wanted_contact
   implicit none
   public
 

@@ -34,6 +34,10 @@ module fuge_status
   integer, parameter, public :: FUGE_WARN_CASES = 6
   !> Nothing is proved of the solution, or not all: the message has the reason.
   integer, parameter, public :: FUGE_WARN_NOT_PROVED = 7
+  !> Found, but points lie on the border between two states: the gradient is that of one side of a kink.
+  integer, parameter, public :: FUGE_WARN_KINK = 8
+  !> Found, but for other forces than those wanted, which the points cannot have.
+  integer, parameter, public :: FUGE_WARN_UNREACHABLE = 9
   !> A size or an index is invalid, or arrays differ in length.
   integer, parameter, public :: FUGE_ERR_SIZE = -1
   !> An array is not contiguous; in C a pointer is NULL.
@@ -85,7 +89,7 @@ module fuge_status
 
   !> The range of the codes.
   integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_LAW
-  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_NOT_PROVED
+  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_UNREACHABLE
 
   !> The text of each code, lowest first.
   character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
@@ -120,7 +124,9 @@ module fuge_status
     'done, but pairs share a node', &
     'done, but no point touches and all gaps open', &
     'done, but some load cases failed or have a warning', &
-    'done, but the solution is not proved']
+    'done, but the solution is not proved', &
+    'done, but at a kink: the gradient is that of one side', &
+    'done, but for other forces: those wanted are not possible']
 
   character(len=*), parameter :: UNKNOWN_STATUS = 'unknown status'
 

@@ -8,6 +8,7 @@ module fuge_c_results
   use fuge_c_solver, only: find_solver, solver_handle
   use fuge_c_types, only: give_info, give_message, report_failure, report_to_handle, require_pointer
   use fuge_number_text, only: text
+  use fuge_problem_modes, only: resultants_of
   use fuge_problem_type, only: fuge_solution
   use fuge_kinds, only: dp
   use fuge_point_space, only: point_space
@@ -63,22 +64,11 @@ contains
     integer(c_int) :: status
     type(solver_handle), pointer :: handle
     type(point_space) :: space
-    real(dp), allocatable :: sums(:)
 
     status = find_solution(solver, resultant, 'resultant', handle)
     if (status /= FUGE_DONE) return
     space = handle%operator%operator%ranks()
-    associate (problem => handle%problem, force => handle%solution%force)
-      if (allocated(problem%modes)) then
-        allocate (sums(size(problem%modes, 2)))
-        sums = matmul(force, problem%modes)
-      else
-        allocate (sums(1))
-        sums = sum(force)
-      end if
-    end associate
-    call space%add(sums)
-    call give(sums, resultant)
+    call give(resultants_of(handle%problem, handle%solution%force, space), resultant)
   end function c_get_resultant
 
   !> First-order changes of the last solution with the gaps and one load, see `derivative` of `fuge_solver`.

@@ -25,6 +25,7 @@ module fuge_contact_engine
     procedure(count_of_last), deferred :: last_points
     procedure(count_of_last), deferred :: last_modes
     procedure(differentiate), deferred :: derivative
+    procedure(compare_states), deferred :: has_found
   end type contact_engine
 
   abstract interface
@@ -74,14 +75,24 @@ module fuge_contact_engine
       integer :: number
     end function count_of_last
 
+    !> Are `state` (n) the states of the last solution?
+    pure function compare_states(self, state) result(same)
+      import :: contact_engine
+      class(contact_engine), intent(in) :: self
+      integer, intent(in) :: state(:)
+      logical :: same
+    end function compare_states
+
     !> The derivative of the last solution: see `fuge_solver`. `gap_change` and `load_change` are of the right sizes.
-    subroutine differentiate(self, operator, gap_change, load_change, change, info)
+    !> Changes of open gaps are needed where `wanted` (n) only, or everywhere, and are zero elsewhere.
+    subroutine differentiate(self, operator, gap_change, load_change, change, info, wanted)
       import :: contact_engine, dp, fuge_operator, fuge_solution, fuge_info
       class(contact_engine), intent(in) :: self
       class(fuge_operator), intent(in) :: operator
       real(dp), intent(in) :: gap_change(:), load_change(:)
       type(fuge_solution), intent(inout) :: change
       type(fuge_info), intent(inout) :: info
+      logical, intent(in), optional :: wanted(:)
     end subroutine differentiate
   end interface
 

@@ -56,6 +56,7 @@ module fuge_dense_engine
     procedure :: last_points
     procedure :: last_modes
     procedure :: derivative
+    procedure :: has_found
     procedure :: start_from
     procedure :: take_arrays
   end type dense_engine
@@ -346,20 +347,31 @@ contains
     number = self%canonical%mode_count()
   end function last_modes
 
+  pure function has_found(self, state) result(same)
+    class(dense_engine), intent(in) :: self
+    integer, intent(in) :: state(:)
+    logical :: same
+
+    same = self%last_points() == size(state)
+    if (same) same = all(self%state(:size(state)) == state)
+  end function has_found
+
   !> By triangular solves with the last factor. Errors: those of `find_derivative`.
-  subroutine derivative(self, operator, gap_change, load_change, change, info)
+  subroutine derivative(self, operator, gap_change, load_change, change, info, wanted)
     class(dense_engine), intent(in) :: self
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(inout) :: info
+    logical, intent(in), optional :: wanted(:)
 
     select type (operator)
     class is (fuge_dense_operator)
       if (self%with_springs) then
-        call derivative_with_springs(self, self%springs, gap_change, load_change, change, info)
+        call derivative_with_springs(self, self%springs, gap_change, load_change, change, info, wanted)
       else
-        call find_derivative(self%canonical, operator, self%factor, self%state, gap_change, load_change, change, info)
+        call find_derivative(self%canonical, operator, self%factor, self%state, gap_change, load_change, change, info, &
+                             wanted)
       end if
     class default
       call report(info, FUGE_ERR_CALL_ORDER, 'the last solve was with a matrix, not with this operator')
@@ -367,17 +379,24 @@ contains
   end subroutine derivative
 
   !> The derivative of a problem with springs.
-  subroutine derivative_with_springs(self, springs, gap_change, load_change, change, info)
+  subroutine derivative_with_springs(self, springs, gap_change, load_change, change, info, wanted)
     class(dense_engine), intent(in) :: self
     type(spring_matrix), intent(in), target :: springs
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(inout) :: info
+    logical, intent(in), optional :: wanted(:)
     type(fuge_dense_operator) :: with_springs
 
     call springs%as_operator(with_springs)
-    call find_derivative(self%canonical, with_springs, self%factor, self%state, &
-                         [gap_change, spread(0.0_dp, 1, self%spring_points)], load_change, change, info)
+    if (present(wanted)) then
+      call find_derivative(self%canonical, with_springs, self%factor, self%state, &
+                           [gap_change, spread(0.0_dp, 1, self%spring_points)], load_change, change, info, &
+                           [wanted, spread(.false., 1, self%spring_points)])
+    else
+      call find_derivative(self%canonical, with_springs, self%factor, self%state, &
+                           [gap_change, spread(0.0_dp, 1, self%spring_points)], load_change, change, info)
+    end if
     if (.not. info%failed()) call strip_solution(size(gap_change), change, info)
   end subroutine derivative_with_springs
 

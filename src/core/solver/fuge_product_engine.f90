@@ -62,6 +62,7 @@ module fuge_product_engine
     procedure :: last_points
     procedure :: last_modes
     procedure :: derivative
+    procedure :: has_found
   end type product_engine
 
 contains
@@ -437,12 +438,13 @@ contains
   end function last_modes
 
   !> By products on the contact set. Errors: those of `find_derivative_by_products`.
-  subroutine derivative(self, operator, gap_change, load_change, change, info)
+  subroutine derivative(self, operator, gap_change, load_change, change, info, wanted)
     class(product_engine), intent(in) :: self
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(inout) :: info
+    logical, intent(in), optional :: wanted(:)
 
     if (allocated(self%scaled)) then
       call derivative_scaled(self, operator, gap_change, load_change, change, info)
@@ -451,7 +453,18 @@ contains
     else
       call differentiate(self, operator, gap_change, load_change, change, info)
     end if
+    ! The last product has all gaps.
+    if (present(wanted) .and. .not. info%failed()) where (.not. wanted) change%gap = 0.0_dp
   end subroutine derivative
+
+  pure function has_found(self, state) result(same)
+    class(product_engine), intent(in) :: self
+    integer, intent(in) :: state(:)
+    logical :: same
+
+    same = self%last_points() == size(state)
+    if (same) same = all(int(self%last%state(:size(state))) == state)
+  end function has_found
 
   !> With springs, in units of their own.
   subroutine derivative_scaled(self, operator, gap_change, load_change, change, info)

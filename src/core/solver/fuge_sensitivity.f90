@@ -2,7 +2,7 @@
 module fuge_sensitivity
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_states, only: is_at_stop
-  use fuge_displacements, only: add_elastic_displacement, rigid_displacement
+  use fuge_displacements, only: add_displacement_at, add_elastic_displacement, rigid_displacement
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: solve_set
@@ -28,10 +28,10 @@ contains
   !> Changes of forces, gaps and motions at a fixed contact set, by solves with its factor.
   !>
   !> `operator` that of the solve; `factor` of the set in `state` (n); `gap_change` (n) length, `load_change` (m) of
-  !> the resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`. Errors,
-  !> `change` untouched: FUGE_ERR_NO_EQUILIBRIUM if the contact set does not resist a mode that the changes load,
+  !> the resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`, with the
+  !> changes of open gaps where they are `wanted` (n) only, or everywhere. Errors, `change` untouched: FUGE_ERR_NO_EQUILIBRIUM if the contact set does not resist a mode that the changes load,
   !> FUGE_ERR_CALL_ORDER if the factor does not belong to the matrix, which has changed in place, FUGE_ERR_MEMORY.
-  subroutine find_derivative(canonical, operator, factor, state, gap_change, load_change, change, info)
+  subroutine find_derivative(canonical, operator, factor, state, gap_change, load_change, change, info, wanted)
     type(canonical_problem), intent(in) :: canonical
     class(fuge_dense_operator), intent(in) :: operator
     type(kkt_factor), intent(in) :: factor
@@ -39,6 +39,7 @@ contains
     real(dp), intent(in) :: gap_change(:), load_change(:)
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(inout) :: info
+    logical, intent(in), optional :: wanted(:)
     real(dp), allocatable :: force(:), gap(:), motion(:), reduced_gap(:), load(:), unresisted(:, :)
     real(dp) :: datum, free_motion(size(canonical%load))
     integer :: stat
@@ -57,7 +58,12 @@ contains
     free_motion = without_unresisted(free_motion, unresisted)
     if (is_rigid(canonical%modes, reduced_gap, load, free_motion, is_at_stop(state))) force = 0.0_dp
     gap = reduced_gap - rigid_displacement(canonical%modes, free_motion)
-    call add_elastic_displacement(operator%alpha, datum, is_at_stop(state), force, gap)
+    if (present(wanted)) then
+      call add_displacement_at(operator%alpha, datum, is_at_stop(state), .not. (is_at_stop(state) .or. wanted), &
+                               force, gap)
+    else
+      call add_elastic_displacement(operator%alpha, datum, is_at_stop(state), force, gap)
+    end if
     ! A regularised factor leaves gaps open where the changes do not fit to a singular alpha.
     if (.not. (factor%regularisation > 0.0_dp &
                .or. is_closed(canonical%modes, operator%alpha, [datum, factor%datum], is_at_stop(state), &
@@ -67,9 +73,10 @@ contains
       return
     end if
     where (is_at_stop(state)) gap = 0.0_dp
+    if (present(wanted)) where (.not. wanted) gap = 0.0_dp
     if (canonical%has_translation) free_motion(1) = free_motion(1) + datum*load(1)
     call canonical%to_given_modes(load_change, free_motion, motion)
-    call canonical%set_excluded_gaps(operator%alpha, gap_change, force, motion, gap)
+    if (.not. present(wanted)) call canonical%set_excluded_gaps(operator%alpha, gap_change, force, motion, gap)
     call move_alloc(force, change%force)
     call move_alloc(gap, change%gap)
     call move_alloc(motion, change%motion)
@@ -89,7 +96,7 @@ contains
 
     call solve_set(factor, datum, reduced_gap, load, force, motion)
     residual = reduced_gap - rigid_displacement(canonical%modes, motion)
-    call add_elastic_displacement(alpha, datum, contact, force, residual)
+    call add_displacement_at(alpha, datum, contact, .not. contact, force, residual)
     missing = load - matmul(force, canonical%modes)
     call solve_set(factor, datum, residual, missing, correction, shift)
     force = force + correction

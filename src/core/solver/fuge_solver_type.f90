@@ -45,10 +45,13 @@ module fuge_solver_type
     procedure :: solve
     procedure :: start_from
     procedure :: reset
-    !> For a change of one load, or of each.
-    generic :: derivative => derivative_by_load, derivative_by_loads
+    !> For a change of one load, or of each; and of open gaps at some points only.
+    generic :: derivative => derivative_by_load, derivative_by_loads, derivative_at_points
     procedure, private :: derivative_by_load
     procedure, private :: derivative_by_loads
+    procedure, private :: derivative_at_points
+    procedure :: has_found
+    procedure :: thread_count
   end type fuge_solver
 
 contains
@@ -254,29 +257,80 @@ contains
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(out) :: info
 
+    call differentiate_last(self, operator, gap_change, load_change, change, info)
+  end subroutine derivative_by_loads
+
+  !> As `derivative_by_loads`, with the changes of open gaps where `wanted` (n) only, zero elsewhere: with a matrix of
+  !> many points, most of them open, the others cost the larger part of the time.
+  subroutine derivative_at_points(self, operator, gap_change, load_change, wanted, change, info)
+    class(fuge_solver), intent(in) :: self
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    logical, intent(in) :: wanted(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(out) :: info
+
+    call differentiate_last(self, operator, gap_change, load_change, change, info, wanted)
+  end subroutine derivative_at_points
+
+  !> The derivative of the last solution, if there is one.
+  subroutine differentiate_last(self, operator, gap_change, load_change, change, info, wanted)
+    class(fuge_solver), intent(in) :: self
+    class(fuge_operator), intent(in) :: operator
+    real(dp), intent(in) :: gap_change(:), load_change(:)
+    type(fuge_solution), intent(inout) :: change
+    type(fuge_info), intent(out) :: info
+    logical, intent(in), optional :: wanted(:)
+
     info = self%last_report
     if (.not. self%has_solution) then
       call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution with a load: solve first')
     else if (self%solved_by_products) then
-      call differentiate(self%by_products, operator, gap_change, load_change, self%threads, change, info)
+      call differentiate(self%by_products, operator, gap_change, load_change, self%threads, change, info, wanted)
     else
-      call differentiate(self%by_matrix, operator, gap_change, load_change, self%threads, change, info)
+      call differentiate(self%by_matrix, operator, gap_change, load_change, self%threads, change, info, wanted)
     end if
-  end subroutine derivative_by_loads
+  end subroutine differentiate_last
+
+  !> Has the last solve found a solution with a load, with these states of the points, (n)? Only then there are
+  !> derivatives.
+  pure function has_found(self, state)
+    class(fuge_solver), intent(in) :: self
+    integer, intent(in) :: state(:)
+    logical :: has_found
+
+    has_found = self%has_solution
+    if (.not. has_found) return
+    if (self%solved_by_products) then
+      has_found = self%by_products%has_found(state)
+    else
+      has_found = self%by_matrix%has_found(state)
+    end if
+  end function has_found
+
+  !> How many threads shared the last solve, and share its derivatives.
+  pure function thread_count(self)
+    class(fuge_solver), intent(in) :: self
+    integer :: thread_count
+
+    thread_count = self%threads
+  end function thread_count
 
   !> The derivative of the last solution of `engine`, for changes that fit it, by up to `threads` threads.
-  subroutine differentiate(engine, operator, gap_change, load_change, threads, change, info)
+  subroutine differentiate(engine, operator, gap_change, load_change, threads, change, info, wanted)
     class(contact_engine), intent(in) :: engine
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap_change(:), load_change(:)
     integer, intent(in) :: threads
     type(fuge_solution), intent(inout) :: change
     type(fuge_info), intent(inout) :: info
+    logical, intent(in), optional :: wanted(:)
     type(point_space) :: space
     type(thread_team) :: team
 
     space = operator%ranks()
-    call check_changes(engine, operator%points(), gap_change, load_change, info)
+    if (present(wanted)) call check_wanted(operator%points(), wanted, info)
+    if (.not. info%failed()) call check_changes(engine, operator%points(), gap_change, load_change, info)
     call space%agree(info)
     if (info%failed()) return
     if (differ(load_change, space)) then
@@ -284,9 +338,19 @@ contains
       return
     end if
     call team%begin(threads)
-    call engine%derivative(operator, gap_change, load_change, change, info)
+    call engine%derivative(operator, gap_change, load_change, change, info, wanted)
     call team%end()
   end subroutine differentiate
+
+  !> FUGE_ERR_SIZE unless `wanted` has a value for each of `n` points.
+  pure subroutine check_wanted(n, wanted, info)
+    integer, intent(in) :: n
+    logical, intent(in) :: wanted(:)
+    type(fuge_info), intent(inout) :: info
+
+    if (size(wanted) /= n) call report(info, FUGE_ERR_SIZE, 'wanted has '//text(size(wanted))//' value(s), the ' &
+                                       //'operator '//text(n)//' points')
+  end subroutine check_wanted
 
   !> Refuse changes that fit no solution of n points.
   pure subroutine check_changes(engine, n, gap_change, load_change, info)

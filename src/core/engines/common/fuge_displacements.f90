@@ -11,8 +11,8 @@ module fuge_displacements
   implicit none
   private
 
-  public :: add_elastic_displacement, add_open_displacement, add_rough_product, displacement_magnitude, &
-    displacement_magnitude_at, rigid_displacement
+  public :: add_displacement_at, add_elastic_displacement, add_open_displacement, add_rough_product, &
+    displacement_magnitude, displacement_magnitude_at, rigid_displacement
 
   !> Runs of points in contact, or open, that are shorter than this on average are not worth a loop each.
   integer, parameter :: SHORT_RUN = 16
@@ -21,7 +21,8 @@ module fuge_displacements
   !> Threads share displacements with more coefficients than this, in groups of ROWS points.
   real(dp), parameter :: SHARED = 2.0_dp**17
   integer, parameter :: ROWS = 16
-  !> Displacements are added at all points, or at open ones: one by one, or where they lie side by side together.
+  !> Displacements are added at all points, or at those that are not passed over: one by one, or where they lie side by
+  !> side together.
   integer, parameter :: ALL_POINTS = 0, POINT_BY_POINT = 1, IN_RUNS = 2
   !> With force at more than this fraction of the points, half of the matrix is read instead of columns.
   real(dp), parameter :: MANY = 0.6_dp
@@ -30,7 +31,7 @@ module fuge_displacements
   type, extends(work_in_parts) :: displacement_work
     real(dp), pointer, contiguous :: alpha(:, :) => null(), u(:) => null()
     real(dp), pointer, contiguous :: force(:) => null()
-    logical, pointer :: contact(:) => null()
+    logical, pointer :: contact(:) => null(), passed_over(:) => null()
     real(dp) :: datum = 0.0_dp
     integer :: way = ALL_POINTS
   contains
@@ -62,8 +63,19 @@ contains
     logical, intent(in), target :: contact(:)
     real(dp), intent(inout), target, contiguous :: u(:)
 
-    call add_in_parts(alpha, datum, contact, force, ALL_POINTS, u)
+    call add_in_parts(alpha, datum, contact, contact, force, ALL_POINTS, u)
   end subroutine add_elastic_displacement
+
+  !> As `add_elastic_displacement`, but at the points that are not `passed_over` (n) only, where u stays as it is.
+  subroutine add_displacement_at(alpha, datum, contact, passed_over, force, u)
+    real(dp), intent(in), target, contiguous :: alpha(:, :)
+    real(dp), intent(in), target, contiguous :: force(:)
+    real(dp), intent(in) :: datum
+    logical, intent(in), target :: contact(:), passed_over(:)
+    real(dp), intent(inout), target, contiguous :: u(:)
+
+    call add_in_parts(alpha, datum, contact, passed_over, force, POINT_BY_POINT, u)
+  end subroutine add_displacement_at
 
   !> As `add_elastic_displacement`, but needed at open points only; what is added to u at points in contact is left
   !> undefined. Forces are zero at open points.
@@ -80,20 +92,20 @@ contains
 
     n = size(u)
     if (2*count(contact) > n) then
-      call add_in_parts(alpha, datum, contact, force, POINT_BY_POINT, u)
+      call add_in_parts(alpha, datum, contact, contact, force, POINT_BY_POINT, u)
     else if (count(contact(2:) .neqv. contact(:n - 1))*SHORT_RUN > n) then
-      call add_in_parts(alpha, datum, contact, force, ALL_POINTS, u)
+      call add_in_parts(alpha, datum, contact, contact, force, ALL_POINTS, u)
     else
-      call add_in_parts(alpha, datum, contact, force, IN_RUNS, u)
+      call add_in_parts(alpha, datum, contact, contact, force, IN_RUNS, u)
     end if
   end subroutine add_open_displacement
 
   !> Add displacements at the points that `way` tells; threads share the points if there are many.
-  subroutine add_in_parts(alpha, datum, contact, force, way, u)
+  subroutine add_in_parts(alpha, datum, contact, passed_over, force, way, u)
     real(dp), intent(in), target, contiguous :: alpha(:, :)
     real(dp), intent(in), target, contiguous :: force(:)
     real(dp), intent(in) :: datum
-    logical, intent(in), target :: contact(:)
+    logical, intent(in), target :: contact(:), passed_over(:)
     integer, intent(in) :: way
     real(dp), intent(inout), target, contiguous :: u(:)
     type(displacement_work) :: work
@@ -102,23 +114,24 @@ contains
     work%alpha => alpha
     work%datum = datum
     work%contact => contact
+    work%passed_over => passed_over
     work%force => force
     work%u => u
     work%way = way
     parts = 1
     if (real(size(u), dp)**2 > SHARED) then
-      if (count_products(contact, way) > SHARED) parts = threads_here()
+      if (count_products(contact, passed_over, way) > SHARED) parts = threads_here()
     end if
     call run_in_parts(parts, work)
   end subroutine add_in_parts
 
   !> How many coefficients are read?
-  pure function count_products(contact, way) result(products)
-    logical, intent(in) :: contact(:)
+  pure function count_products(contact, passed_over, way) result(products)
+    logical, intent(in) :: contact(:), passed_over(:)
     integer, intent(in) :: way
     real(dp) :: products
 
-    products = real(count(contact), dp)*real(merge(size(contact), count(.not. contact), way == ALL_POINTS), dp)
+    products = real(count(contact), dp)*real(merge(size(contact), count(.not. passed_over), way == ALL_POINTS), dp)
   end function count_products
 
   !> The points of one part.
@@ -134,7 +147,7 @@ contains
     if (first > last) return
     select case (self%way)
     case (POINT_BY_POINT)
-      call add_at_open_points(self%alpha, self%datum, self%contact, self%force, first, last, self%u)
+      call add_at_points(self%alpha, self%datum, self%contact, self%passed_over, self%force, first, last, self%u)
     case (IN_RUNS)
       call add_in_open_runs(self%alpha, self%datum, self%contact, self%force, first, last, self%u)
     case default
@@ -142,11 +155,11 @@ contains
     end select
   end subroutine add_part
 
-  !> Add displacements at the open points out of `first` to `last`, one by one.
-  pure subroutine add_at_open_points(alpha, datum, contact, force, first, last, u)
+  !> Add displacements at the points out of `first` to `last` that are not passed over, one by one.
+  pure subroutine add_at_points(alpha, datum, contact, passed_over, force, first, last, u)
     real(dp), intent(in), contiguous :: alpha(:, :), force(:)
     real(dp), intent(in) :: datum
-    logical, intent(in) :: contact(:)
+    logical, intent(in) :: contact(:), passed_over(:)
     integer, intent(in) :: first, last
     real(dp), intent(inout), contiguous :: u(:)
     integer :: from, k, to
@@ -154,9 +167,9 @@ contains
     from = findloc_contact(contact, 1, size(contact))
     to = findloc_contact(contact, size(contact), 1)
     do k = first, last
-      if (.not. contact(k)) u(k) = u(k) + displacement_at(alpha(from:to, k), datum, force(from:to))
+      if (.not. passed_over(k)) u(k) = u(k) + displacement_at(alpha(from:to, k), datum, force(from:to))
     end do
-  end subroutine add_at_open_points
+  end subroutine add_at_points
 
   !> Add displacements at the open points out of `first` to `last`, where they lie side by side in one sweep.
   pure subroutine add_in_open_runs(alpha, datum, contact, force, first, last, u)
@@ -320,7 +333,7 @@ contains
                  1.0_dp, u, 1)
       rest(first:last) = .false.
     end do
-    if (any(rest)) call add_in_parts(alpha, 0.0_dp, rest, factor*force, ALL_POINTS, u)
+    if (any(rest)) call add_in_parts(alpha, 0.0_dp, rest, rest, factor*force, ALL_POINTS, u)
   end subroutine add_some_columns
 
 end module fuge_displacements

@@ -1,0 +1,290 @@
+!> The gradient of an objective over all data of a contact problem, by one adjoint solve.
+!>
+!> On a contact set the equations are linear, and symmetric but for the sign of the modes:
+!>
+!>     | A + D   -R | | f |   | -g |
+!>     | R^T      S | | q | = |  w |
+!>
+!> So the adjoint solution, by the transposed matrix, is a derivative of the solution itself, with the weights of the
+!> objective in the places of the changes of gaps and loads, and every engine that has derivatives has gradients
+!> (doc/theory.md).
+module fuge_adjoint_solution
+  use fuge_contact_states, only: is_at_stop, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, FUGE_OPEN
+  use fuge_displacements, only: add_displacement_at
+  use fuge_gradients_type, only: fuge_gradients
+  use fuge_input_checks, only: check_finite
+  use fuge_kinds, only: dp
+  use fuge_kink_search, only: mark_kinks, warn_of_kinks
+  use fuge_law_gradients, only: find_law_gradients, set_displacement
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_number_text, only: text
+  use fuge_operator_products, only: multiply
+  use fuge_operator_type, only: fuge_operator
+  use fuge_point_space, only: point_space
+  use fuge_problem_modes, only: has_free_datum, prescribed_motions, resultants_of
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_OPTION, FUGE_ERR_SIZE
+  use fuge_shared_problem, only: differ
+  use fuge_threads, only: thread_team
+  implicit none
+  private
+
+  public :: fuge_solve_adjoint
+
+  !> Weights of the objective on a contact set, and what follows from them.
+  type :: adjoint_weights
+    !> Partial derivatives by forces, and by the gaps that are free, (n), and by motions, (m).
+    real(dp), allocatable :: force(:), gap(:), motion(:)
+    !> Displacements by the weights of the gaps as forces, (A + D) gap, (n), where a gap or a force is fixed by its
+    !> point; length times the unit of the weights.
+    real(dp), allocatable :: displacement(:)
+    !> A constant that these leave out, because it is one of the translation alone.
+    real(dp) :: left_out = 0.0_dp
+  end type adjoint_weights
+
+contains
+
+  !> The gradient of an objective J(force, gap, motion) at the last solution of `solver`, exact as long as the contact
+  !> set stays, over all gaps, loads, and the other data of the problem, in the time of one derivative.
+  !>
+  !> `operator`, `problem` and `solution` those of the last solve. `weight` the partial derivatives of J by `force` (n),
+  !> `gap` (n) and `motion` (m); those that are not allocated are zero. `gradients` see there. A solve with a factor takes
+  !> triangular solves with it; after the iteration it takes products on the contact set, to the tolerance of the solve,
+  !> and one more if there are weights of open gaps. `info` is that of the solve, whose warnings hold for the gradient
+  !> too, with these products added; FUGE_WARN_KINK if there is none, but points on the border between two states, which
+  !> gradients%at_kink has. Errors, `gradients` untouched: FUGE_ERR_CALL_ORDER without a solution with a load, or if
+  !> `solution` is not the last one; FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE; FUGE_ERR_OPTION where weights of motions differ
+  !> between ranks; those of the derivative, FUGE_ERR_NO_EQUILIBRIUM if J depends on a motion that the contact does not
+  !> resist; those of the product. T. F. Conry and A. Seireg, J. Applied Mechanics 38 (1971), 387-392, design with such
+  !> problems.
+  subroutine fuge_solve_adjoint(solver, operator, problem, solution, weight, gradients, info)
+    class(fuge_solver), intent(in) :: solver
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution, weight
+    type(fuge_gradients), intent(inout) :: gradients
+    type(fuge_info), intent(out) :: info
+    type(adjoint_weights) :: weights
+    type(fuge_gradients) :: new
+    type(fuge_info) :: before
+    type(fuge_solution) :: adjoint
+    type(point_space) :: space
+
+    space = operator%ranks()
+    call check_solution(solver, operator, problem, solution, info)
+    if (.not. info%failed()) call check_weights(weight, operator%points(), problem%mode_count(), info)
+    call space%agree(info)
+    if (info%failed()) return
+    call set_weights(operator, problem, solution, weight, solver%thread_count(), space, weights, before)
+    if (before%failed()) then
+      info = before
+      return
+    end if
+    associate (held => is_at_stop(solution%state))
+      call solver%derivative(operator, merge(-(weights%force + weights%displacement), 0.0_dp, held), &
+                             merge(0.0_dp, -weights%motion, prescribed_motions(problem)), &
+                             abs(solution%state) > 1, adjoint, info)
+    end associate
+    if (info%failed()) return
+    info%products = info%products + before%products
+    call allocate_gradients(problem, solution, new, info)
+    call space%agree(info)
+    if (info%failed()) return
+    call set_gradients(problem, solution, weights, adjoint, space, new)
+    call mark_and_warn(problem, solution, weight, space, new, info)
+    call move_gradients(new, gradients)
+  end subroutine fuge_solve_adjoint
+
+  !> Refuse a problem and a solution that are not those of the last solve, as far as sizes and states tell.
+  subroutine check_solution(solver, operator, problem, solution, info)
+    class(fuge_solver), intent(in) :: solver
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    type(fuge_info), intent(inout) :: info
+    logical :: there
+
+    there = allocated(solution%force) .and. allocated(solution%gap) .and. allocated(solution%motion) &
+            .and. allocated(solution%state)
+    if (there) there = solver%has_found(solution%state) .and. size(solution%force) == size(solution%state) &
+                       .and. size(solution%gap) == size(solution%state)
+    if (.not. there) then
+      call report(info, FUGE_ERR_CALL_ORDER, 'the solution is not the last one of the solver, or had no load: solve ' &
+                  //'with a load, and pass its problem and solution')
+    else if (size(solution%state) /= operator%points() .or. size(solution%state) /= problem%points() &
+             .or. size(solution%motion) /= problem%mode_count()) then
+      call report(info, FUGE_ERR_SIZE, 'the solution has '//text(size(solution%state))//' point(s) and ' &
+                  //text(size(solution%motion))//' motion(s), the problem '//text(problem%points())//' and ' &
+                  //text(problem%mode_count())//', the operator '//text(operator%points())//' points: pass those of ' &
+                  //'the last solve')
+    end if
+  end subroutine check_solution
+
+  !> Refuse weights that do not fit `n` points and `m` motions.
+  subroutine check_weights(weight, n, m, info)
+    type(fuge_solution), intent(in) :: weight
+    integer, intent(in) :: n, m
+    type(fuge_info), intent(inout) :: info
+
+    call check_values(weight%force, n, 'weight%force', info)
+    if (.not. info%failed()) call check_values(weight%gap, n, 'weight%gap', info)
+    if (.not. info%failed()) call check_values(weight%motion, m, 'weight%motion', info)
+  end subroutine check_weights
+
+  pure subroutine check_values(values, expected, name, info)
+    real(dp), intent(in), allocatable :: values(:)
+    integer, intent(in) :: expected
+    character(len=*), intent(in) :: name
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. allocated(values)) return
+    if (size(values) /= expected) then
+      call report(info, FUGE_ERR_SIZE, name//' has '//text(size(values))//' value(s): it needs '//text(expected))
+    else
+      call check_finite(values, name, info)
+    end if
+  end subroutine check_values
+
+  !> The weights on what is free on the contact set: gaps of open points are those by forces and motions, so their
+  !> weights are weights on these. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION, those of the product.
+  subroutine set_weights(operator, problem, solution, weight, threads, space, weights, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution, weight
+    integer, intent(in) :: threads
+    type(point_space), intent(in) :: space
+    type(adjoint_weights), intent(inout) :: weights
+    type(fuge_info), intent(inout) :: info
+    type(thread_team) :: team
+    integer :: m, n, stat
+
+    n = size(solution%state)
+    m = problem%mode_count()
+    allocate (weights%force(n), weights%gap(n), weights%displacement(n), weights%motion(m), stat=stat)
+    call require_memory(stat, 'the weights of', n, 'points', info)
+    call space%agree(info)
+    if (info%failed()) return
+    weights%force = 0.0_dp
+    weights%gap = 0.0_dp
+    weights%displacement = 0.0_dp
+    weights%motion = 0.0_dp
+    if (allocated(weight%motion)) weights%motion = weight%motion
+    if (differ(weights%motion, space)) then
+      call report(info, FUGE_ERR_OPTION, 'weight%motion differs between the ranks')
+      return
+    end if
+    if (allocated(weight%force)) weights%force = weight%force
+    if (allocated(weight%gap)) weights%gap = merge(0.0_dp, weight%gap, is_at_stop(solution%state))
+    if (.not. space%anywhere(any(abs(weights%gap) > 0.0_dp))) return
+    call team%begin(threads)
+    call displace_by_weights(operator, problem, solution, space, weights, info)
+    call team%end()
+    if (info%failed()) return
+    weights%motion = weights%motion - resultants_of(problem, weights%gap, space)
+  end subroutine set_weights
+
+  !> (A + D) w at the points whose gap or force is fixed, for weights w of the open gaps.
+  subroutine displace_by_weights(operator, problem, solution, space, weights, info)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    type(point_space), intent(in) :: space
+    type(adjoint_weights), intent(inout) :: weights
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: constant
+
+    select type (operator)
+    class is (fuge_dense_operator)
+      ! Of a symmetric matrix the columns of these points only, which are their rows.
+      call add_displacement_at(operator%alpha, operator%datum(), abs(weights%gap) > 0.0_dp, solution%state == FUGE_OPEN, &
+                               weights%gap, weights%displacement)
+    class default
+      call multiply(operator, weights%gap, weights%displacement, info)
+    end select
+    if (info%failed()) return
+    constant = operator%datum()*space%total(sum(weights%gap))
+    if (has_free_datum(problem)) then
+      weights%left_out = constant
+    else
+      weights%displacement = weights%displacement + constant
+    end if
+    if (allocated(problem%compliance)) weights%displacement = weights%displacement + problem%compliance*weights%gap
+  end subroutine displace_by_weights
+
+  !> Arrays for the gradients of `problem`. Error: FUGE_ERR_MEMORY.
+  subroutine allocate_gradients(problem, solution, gradients, info)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    type(fuge_gradients), intent(inout) :: gradients
+    type(fuge_info), intent(inout) :: info
+    integer :: m, n, stat
+
+    n = size(solution%state)
+    m = size(solution%motion)
+    allocate (gradients%gap(n), gradients%load(m), gradients%compliance(n), gradients%motion_stiffness(m), &
+              gradients%at_kink(n), stat=stat)
+    if (allocated(problem%gap_upper) .and. stat == 0) allocate (gradients%gap_upper(n), stat=stat)
+    if (allocated(problem%limit) .and. stat == 0) allocate (gradients%limit(n), stat=stat)
+    if (allocated(problem%limit_upper) .and. stat == 0) allocate (gradients%limit_upper(n), stat=stat)
+    call require_memory(stat, 'the gradients of', n, 'points', info)
+  end subroutine allocate_gradients
+
+  !> The gradients by gaps, loads and limits from the derivative `adjoint`.
+  subroutine set_gradients(problem, solution, weights, adjoint, space, gradients)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution, adjoint
+    type(adjoint_weights), intent(in) :: weights
+    type(point_space), intent(in) :: space
+    type(fuge_gradients), intent(inout) :: gradients
+
+    gradients%gap = merge(-adjoint%force, weights%gap, is_at_stop(solution%state))
+    gradients%load = weights%left_out - adjoint%motion
+    if (any(prescribed_motions(problem))) then
+      ! Those of open gaps are in the weights of the motions already.
+      where (prescribed_motions(problem)) gradients%load = weights%motion &
+        - resultants_of(problem, merge(gradients%gap, 0.0_dp, is_at_stop(solution%state)), space)
+    end if
+    associate (by_limit => weights%force + weights%displacement - adjoint%gap)
+      if (allocated(gradients%limit)) gradients%limit = merge(by_limit, 0.0_dp, solution%state == FUGE_LIMITED_LOWER)
+      if (allocated(gradients%limit_upper)) gradients%limit_upper = merge(-by_limit, 0.0_dp, &
+                                                                          solution%state == FUGE_LIMITED_UPPER)
+    end associate
+  end subroutine set_gradients
+
+  !> The gradients that follow from those by gaps and loads, and points at a kink.
+  subroutine mark_and_warn(problem, solution, weight, space, gradients, info)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution, weight
+    type(point_space), intent(in) :: space
+    type(fuge_gradients), intent(inout) :: gradients
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: displacement(:)
+    integer :: stat
+
+    allocate (displacement(size(solution%state)), stat=stat)
+    call require_memory(stat, 'the displacements of', size(solution%state), 'points', info)
+    call space%agree(info)
+    if (info%failed()) return
+    call set_displacement(problem, solution, displacement)
+    call find_law_gradients(problem, solution, weight, displacement, space, gradients)
+    call mark_kinks(problem, solution, displacement, space, info, gradients%at_kink)
+    call warn_of_kinks(gradients%at_kink, space, info)
+  end subroutine mark_and_warn
+
+  !> Move the arrays of `source` to `gradients`.
+  pure subroutine move_gradients(source, gradients)
+    type(fuge_gradients), intent(inout) :: source, gradients
+
+    call move_alloc(source%gap, gradients%gap)
+    call move_alloc(source%load, gradients%load)
+    call move_alloc(source%compliance, gradients%compliance)
+    call move_alloc(source%motion_stiffness, gradients%motion_stiffness)
+    call move_alloc(source%gap_upper, gradients%gap_upper)
+    call move_alloc(source%limit, gradients%limit)
+    call move_alloc(source%limit_upper, gradients%limit_upper)
+    call move_alloc(source%at_kink, gradients%at_kink)
+    gradients%log_modulus = source%log_modulus
+  end subroutine move_gradients
+
+end module fuge_adjoint_solution
