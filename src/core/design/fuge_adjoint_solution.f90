@@ -24,7 +24,8 @@ module fuge_adjoint_solution
   use fuge_problem_modes, only: has_free_datum, prescribed_motions, resultants_of
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_OPTION, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OPTION, &
+    FUGE_ERR_SIZE
   use fuge_shared_problem, only: differ
   use fuge_threads, only: thread_team
   implicit none
@@ -86,6 +87,9 @@ contains
                              merge(0.0_dp, -weights%motion, prescribed_motions(problem)), &
                              abs(solution%state) > 1, adjoint, info)
     end associate
+    if (info%status == FUGE_ERR_NO_EQUILIBRIUM) call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the objective depends on a ' &
+      //'motion that the contact does not resist, and so has no gradient: leave weights of that motion out, and those ' &
+      //'of the gaps that it moves')
     if (info%failed()) return
     info%products = info%products + before%products
     call allocate_gradients(problem, solution, new, info)
