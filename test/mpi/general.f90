@@ -144,7 +144,74 @@ contains
     if (info%failed()) return
     if (my_rank() == 0) call whole_solver%derivative(whole, whole_problem%gap, load_change, expected_change, whole_info)
     call compare_changes(name//', derivative', info, change, whole_info, expected_change)
+    call compare_gradients(name//', gradient', solver, shared, problem, solution, whole_solver, whole, whole_problem, &
+                           expected)
+    call compare_wanted(name//', wanted', shared, problem, solution, whole, whole_problem, expected)
   end subroutine compare
+
+  ! The gradient of an objective with weights on everything.
+  subroutine compare_gradients(name, solver, shared, problem, solution, whole_solver, whole, whole_problem, expected)
+    character(len=*), intent(in) :: name
+    type(fuge_solver), intent(in) :: solver, whole_solver
+    class(fuge_operator), intent(in) :: shared, whole
+    type(fuge_problem), intent(in) :: problem, whole_problem
+    type(fuge_solution), intent(in) :: solution, expected
+    type(fuge_solution) :: weight
+    type(fuge_gradients) :: gradients, whole_gradients
+    type(fuge_info) :: info, whole_info
+    real(dp), allocatable :: gap(:)
+
+    ! The loads of the last solve are these no more.
+    call set_weights(problem, weight)
+    call fuge_solve_adjoint(solver, shared, problem, solution, weight, gradients, info)
+    call expect(info%status == FUGE_DONE, name//': '//trim(info%message))
+    if (info%failed()) return
+    if (my_rank() == 0) then
+      call set_weights(whole_problem, weight)
+      call fuge_solve_adjoint(whole_solver, whole, whole_problem, expected, weight, whole_gradients, whole_info)
+    end if
+    call gather(gradients%gap, gap)
+    if (my_rank() > 0) return
+    call expect(abs(info%products - whole_info%products) <= 1, name//': products')
+    call expect(maxval(abs(gap - whole_gradients%gap)) <= 1.0e-8_dp*maxval(abs(gap)), name//': gaps')
+    call expect(all(abs(gradients%load - whole_gradients%load) <= 1.0e-8_dp*maxval(abs(gradients%load))), name//': loads')
+    call expect(abs(gradients%log_modulus - whole_gradients%log_modulus) <= 1.0e-8_dp*maxval(abs(gap)), name//': modulus')
+    write (*, '(a,t36,2i6,es10.2)') name, info%products, whole_info%products, &
+      maxval(abs(gap - whole_gradients%gap))/maxval(abs(gap))
+  end subroutine compare_gradients
+
+  ! Partial derivatives of an objective, from data that each rank has.
+  pure subroutine set_weights(problem, weight)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(out) :: weight
+    integer :: j
+
+    allocate (weight%force(problem%points()), weight%gap(problem%points()), weight%motion(problem%mode_count()))
+    weight%force = problem%gap
+    weight%gap = cos(300.0_dp*problem%gap)
+    weight%motion = [(0.1_dp*j, j=1, problem%mode_count())]
+  end subroutine set_weights
+
+  ! The gaps for the forces of a solution.
+  subroutine compare_wanted(name, shared, problem, solution, whole, whole_problem, expected)
+    character(len=*), intent(in) :: name
+    class(fuge_operator), intent(in) :: shared, whole
+    type(fuge_problem), intent(in) :: problem, whole_problem
+    type(fuge_solution), intent(in) :: solution, expected
+    type(fuge_wanted_contact) :: wanted, whole_wanted
+    type(fuge_info) :: info, whole_info
+    real(dp), allocatable :: gap(:)
+
+    call fuge_gap_for_pressure(shared, problem, solution%force, 0.001_dp, wanted, info)
+    call expect(info%status == FUGE_DONE, name//': '//trim(info%message))
+    if (info%failed()) return
+    if (my_rank() == 0) call fuge_gap_for_pressure(whole, whole_problem, expected%force, 0.001_dp, whole_wanted, whole_info)
+    call gather(wanted%gap, gap)
+    if (my_rank() > 0) return
+    call expect(maxval(abs(gap - whole_wanted%gap)) <= 1.0e-8_dp*maxval(abs(gap)), name//': gaps')
+    call expect(all(abs(wanted%resultant - whole_wanted%resultant) <= 1.0e-8_dp*maxval(abs(wanted%resultant))), &
+                name//': resultants')
+  end subroutine compare_wanted
 
   ! Derivatives are solved to the tolerance of the solution only.
   subroutine compare_changes(name, info, change, whole_info, expected)

@@ -131,9 +131,9 @@ contains
     integer, intent(in) :: n, m
     type(fuge_info), intent(inout) :: info
 
-    call check_values(weight%force, n, 'weight%force', info)
-    if (.not. info%failed()) call check_values(weight%gap, n, 'weight%gap', info)
-    if (.not. info%failed()) call check_values(weight%motion, m, 'weight%motion', info)
+    call check_values(weight%force, n, 'force_weight', info)
+    if (.not. info%failed()) call check_values(weight%gap, n, 'gap_weight', info)
+    if (.not. info%failed()) call check_values(weight%motion, m, 'motion_weight', info)
   end subroutine check_weights
 
   pure subroutine check_values(values, expected, name, info)
@@ -175,7 +175,7 @@ contains
     weights%motion = 0.0_dp
     if (allocated(weight%motion)) weights%motion = weight%motion
     if (differ(weights%motion, space)) then
-      call report(info, FUGE_ERR_OPTION, 'weight%motion differs between the ranks')
+      call report(info, FUGE_ERR_OPTION, 'motion_weight differs between the ranks')
       return
     end if
     if (allocated(weight%force)) weights%force = weight%force
