@@ -29,6 +29,8 @@ Solving: gaps and a load, a prescribed approach, or several rigid motions
     solve(operator, gap, load)              one problem; the result is a Contact with its Info
     Solver(operator)                        one solve after the other; a Derivative, and the History of the tableau
     Solver.prove, solve(prove=True)         bounds of the error of each number: a Proof
+    Solver.vjp, Contact.vjp                 the gradient of an objective over all data: Gradients
+    Solver.gap_for_pressure                 gaps for a wanted pressure: a WantedContact
     envelope(values)                        the Envelope of load cases, which Solver and Body solve: Cases
     load_path(alpha, gap, load)             all loads at which a point changes its PointState: a Path
     contact_edges(x, width, force, element) edges finer than the grid: ContactEdges, each of an EdgeKind
@@ -82,7 +84,7 @@ What can go wrong: each error and warning has a Status and a message that says h
     Error: InputError, MatrixError, EquilibriumError, LimitError, UnsupportedError, CallOrderError, FileError,
         OutOfMemoryError, CallbackError, CancelledError
     Warning: ResidualWarning, NotUniqueWarning, IllConditionedWarning, GridWarning, PairsWarning,
-        NoContactWarning, CasesWarning, NotProvedWarning
+        NoContactWarning, CasesWarning, NotProvedWarning, KinkWarning, UnreachableWarning
 """
 
 # "as" exports a name, as __all__ would; but with that help(fuge) would have the whole text of each.
@@ -94,6 +96,7 @@ from fuge.cells import Cells as Cells
 from fuge.columns import CompressedColumns as CompressedColumns
 from fuge.contact import Contact as Contact, Derivative as Derivative, History as History, Info as Info
 from fuge.deck import Deck as Deck, read_deck as read_deck
+from fuge.design import Gradients as Gradients, WantedContact as WantedContact
 from fuge.errors import (
     CallbackError as CallbackError,
     CallOrderError as CallOrderError,
@@ -105,6 +108,7 @@ from fuge.errors import (
     GridWarning as GridWarning,
     IllConditionedWarning as IllConditionedWarning,
     InputError as InputError,
+    KinkWarning as KinkWarning,
     LimitError as LimitError,
     MatrixError as MatrixError,
     NoContactWarning as NoContactWarning,
@@ -114,6 +118,7 @@ from fuge.errors import (
     PairsWarning as PairsWarning,
     ResidualWarning as ResidualWarning,
     Status as Status,
+    UnreachableWarning as UnreachableWarning,
     UnsupportedError as UnsupportedError,
     Warning as Warning,
 )

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fuge.errors import Status, error
+
 
 @dataclass(frozen=True)
 class Cells:
@@ -48,3 +50,19 @@ class Cells:
         """Coordinates of the centres along x (axis 0) or y (axis 1), from the middle of the grid; length."""
         n = self.shape[::-1][axis]
         return self.spacing[axis] * (np.arange(n, dtype=np.float64) - 0.5 * (n - 1))
+
+
+def known_cells(cells: Cells | None) -> Cells:
+    """The cells of an operator, of which a pressure needs the area; an error if it does not know them."""
+    if cells is None:
+        raise error(
+            Status.ERR_GRID,
+            "the operator does not know the areas of its points, so there is no pressure: use forces, which are "
+            "pressures times the area, or the width, of each cell, or use HalfplaneOperator or HalfspaceOperator",
+        )
+    return cells
+
+
+def pressure_of(force: NDArray[np.float64], cells: Cells | None) -> NDArray[np.float64]:
+    """Forces over the area of a cell, in the same shape."""
+    return force / known_cells(cells).size

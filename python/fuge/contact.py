@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import weakref
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from fuge.cells import Cells
+from fuge.cells import Cells, pressure_of
+from fuge.design import Gradients
 from fuge.errors import Status, error
 from fuge.proof import Proof
+
+if TYPE_CHECKING:
+    from fuge.solver import Solver
 
 
 @dataclass(frozen=True)
@@ -83,10 +87,10 @@ class Contact:
     message: str
     cells: Cells | None = None
     proof: Proof | None = None
-    _prove: Callable[[Contact], Proof] | None = field(default=None, repr=False)
+    _solver: weakref.ref[Solver] | None = field(default=None, repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_prove": None}
+        return {**self.__dict__, "_solver": None}
 
     def prove(self) -> Proof:
         """Bounds of the error of each force, gap and motion, rounding included: those of :meth:`Solver.prove`.
@@ -98,11 +102,42 @@ class Contact:
         CallOrderError
             The solver has gone, or has solved another problem since.
         """
-        if self.proof is not None:
-            return self.proof
-        if self._prove is None:
-            raise no_solver()
-        return self._prove(self)
+        return self._last_solver().prove() if self.proof is None else self.proof
+
+    def vjp(
+        self,
+        *,
+        force: ArrayLike | None = None,
+        gap: ArrayLike | None = None,
+        motion: ArrayLike | None = None,
+        pressure: ArrayLike | None = None,
+    ) -> Gradients:
+        """Gradient of an objective of this solution by all data of its problem: that of :meth:`Solver.vjp`.
+
+        For the last solution of a solver that is still there.
+
+        Parameters
+        ----------
+        force, gap, motion, pressure : array_like, optional
+            Partial derivatives of the objective by those of the contact.
+
+        Raises
+        ------
+        CallOrderError
+            The solver has gone, or has solved another problem since.
+        """
+        return self._last_solver().vjp(force=force, gap=gap, motion=motion, pressure=pressure)
+
+    def _last_solver(self) -> Solver:
+        """The solver whose last solution this is."""
+        solver = None if self._solver is None else self._solver()
+        if solver is None or not solver._has_found(self):
+            raise error(
+                Status.ERR_CALL_ORDER,
+                "the solver of this solution has gone, or has solved another problem since: make a fuge.Solver and "
+                "keep it, and call this before it solves again; for a proof pass prove=True to fuge.solve",
+            )
+        return solver
 
     @property
     def pressure(self) -> NDArray[np.float64]:
@@ -115,13 +150,7 @@ class Contact:
         InputError
             The operator does not know the cells of its points, as a matrix does not.
         """
-        if self.cells is None:
-            raise error(
-                Status.ERR_GRID,
-                "the operator does not know the areas of its points, so there is no pressure: divide contact.force by "
-                "the area, or the width, of each cell, or use HalfplaneOperator or HalfspaceOperator",
-            )
-        return self.force / self.cells.size
+        return pressure_of(self.force, self.cells)
 
     @property
     def approach(self) -> float:
@@ -168,15 +197,6 @@ class Derivative:
     force: NDArray[np.float64]
     gap: NDArray[np.float64]
     motion: NDArray[np.float64]
-
-
-def no_solver() -> Exception:
-    """The error of a solution whose solver cannot prove it."""
-    return error(
-        Status.ERR_CALL_ORDER,
-        "the solver of this solution has gone, or has solved another problem since: pass prove=True to fuge.solve, or "
-        "call prove before the solver solves again",
-    )
 
 
 @dataclass(frozen=True, eq=False)

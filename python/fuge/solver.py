@@ -16,7 +16,9 @@ from fuge._library import function, struct
 from fuge._messages import in_python
 from fuge._words import Words
 from fuge.cases import Cases
-from fuge.contact import Contact, Derivative, History, Info, info_of, no_solver
+from fuge.cells import known_cells
+from fuge.contact import Contact, Derivative, History, Info, info_of
+from fuge.design import Gradients, WantedContact
 from fuge.errors import GridWarning, Status, error, warn
 from fuge.operators import DenseOperator, Operator
 from fuge.path import Path, check_matrix, collect_path
@@ -153,7 +155,7 @@ class Solver(Owner):
             A shape does not fit, a gap is not finite, or gap_upper is negative.
         """
         values = self._points("gap", gap)
-        shape = np.shape(gap) or self.operator.grid or (self.n,)
+        shape = self._shape_of(gap)
         upper = None if gap_upper is None else self._points("gap_upper", gap_upper)
         shapes = {"gap": shape, "gap_upper": shape if gap_upper is None else np.shape(gap_upper)}
         self._call("fuge_set_gap", values, upper, shapes=shapes)
@@ -407,13 +409,134 @@ class Solver(Owner):
         """
         m = self.mode_count
         gaps = None if gap_change is None else self._points("gap_change", gap_change)
-        loads = None
-        if load_change is not None:
-            loads = _arrays.vector("load_change", np.atleast_1d(_arrays.array("load_change", load_change)), m)
+        loads = None if load_change is None else _motions("load_change", load_change, m)
         force, gap, motion = np.empty(self._shape), np.empty(self._shape), np.empty(m)
         with interruptible(), self._reading():
             self._call("fuge_get_derivatives", gaps, loads, force, gap, motion)
         return Derivative(force, gap, motion)
+
+    def vjp(
+        self,
+        *,
+        force: ArrayLike | None = None,
+        gap: ArrayLike | None = None,
+        motion: ArrayLike | None = None,
+        pressure: ArrayLike | None = None,
+    ) -> Gradients:
+        """Gradient of an objective J at the last solution by all data of the problem: its vector-Jacobian product.
+
+        One adjoint solve, in the time of one :meth:`derivative`, whatever the number of data; exact as long as the
+        contact set does not change. The arguments are the partial derivatives of J by what the contact has; those
+        that are left out are zero.
+
+        Parameters
+        ----------
+        force : array_like, shape (n,) or that of the grid, or float, optional
+            dJ/dforce, by ``contact.force``.
+        gap : array_like of the same shape, or float, optional
+            dJ/dgap, by ``contact.gap``, the gaps under load.
+        motion : float, or array_like of shape (m,), optional
+            dJ/dmotion, by ``contact.motion``; with one translation by ``contact.approach``.
+        pressure : array_like, shape as of force, or float, optional
+            dJ/dpressure, by ``contact.pressure``, added to that by the forces.
+
+        Returns
+        -------
+        Gradients
+
+        Warns
+        -----
+        KinkWarning
+            Points lie on the border between two states, so that J has a kink; see `at_kink`. Not if the solve had a
+            warning, which holds for the gradient too.
+
+        Raises
+        ------
+        CallOrderError
+            There is no solution of the present problem.
+        EquilibriumError
+            J depends on a motion that the contact does not resist.
+        InputError
+            A shape does not fit, a weight is not finite, or the operator does not know the cells of its points.
+
+        Examples
+        --------
+        >>> solver = fuge.Solver([[0.2, 0.1], [0.1, 0.2]])
+        >>> solver.set_gap([0.0, 1.0])
+        >>> solver.set_load(2.0)
+        >>> contact = solver.solve()
+        >>> solver.vjp(motion=1.0)
+        <Gradients: by 2 gaps up to 1, load 0.2, log_modulus -0.4, 0 points at a kink>
+        """
+        m, shape = self.mode_count, self._shape
+        by_gap = None if gap is None else self._points("gap", gap)
+        by_motion = None if motion is None else _motions("motion", motion, m)
+        weights = self._force_weights(force, pressure), by_gap, by_motion
+        gaps, compliance, gap_upper, limit, limit_upper = (np.empty(shape) for _ in range(5))
+        load, motion_stiffness = np.empty(m), np.empty(m)
+        log_modulus, at_kink = np.empty(1), np.empty(shape, dtype=np.intc)
+        results = gaps, load, compliance, motion_stiffness, gap_upper, limit, limit_upper
+        with interruptible(), self._reading(), self._handle.use() as pointer:
+            code = function("fuge_get_gradients")(pointer, *weights, *results, log_modulus, at_kink)
+            message = in_python(self._read_message(pointer), self._shapes)
+            # Other warnings are those of the solve, which has given them.
+            end_call(min(code, 0) if code != Status.WARN_KINK else code, lambda: message)
+        return Gradients(*results, float(log_modulus[0]), at_kink != 0)
+
+    def gap_for_pressure(
+        self, pressure: ArrayLike | None = None, *, force: ArrayLike | None = None, clearance: float = 0.0
+    ) -> WantedContact:
+        """The initial gaps that give a wanted pressure, or wanted forces, by one product.
+
+        Motions and laws of the solver count, its gaps and resultants do not, and stay: pass what is found to
+        :meth:`set_gap` and :meth:`set_load`. With one free translation the smallest gap is 0, otherwise free motions
+        will be 0.
+
+        Parameters
+        ----------
+        pressure : array_like, shape (n,) or that of the grid, or float, optional
+            Wanted force over the area of a cell, for operators of equal cells; force per length^2.
+        force : array_like, shape (n,) or that of the grid, or float, optional
+            In place of it: wanted forces.
+        clearance : float
+            Gap that is left under load where no force is wanted; length. With 0 these points just touch.
+
+        Returns
+        -------
+        WantedContact
+
+        Warns
+        -----
+        UnreachableWarning
+            A point cannot have what is wanted: it cannot pull at a lower stop, nor have more than its limit, nor
+            anything where excluded. The gaps are those for the nearest force that it can have.
+
+        Raises
+        ------
+        InputError
+            A shape does not fit, a value is not finite, the clearance is negative, neither pressure nor force is
+            given or both are, or the operator does not know the cells of its points.
+        CallbackError
+
+        Examples
+        --------
+        >>> solver = fuge.Solver([[0.2, 0.1], [0.1, 0.2]])
+        >>> solver.gap_for_pressure(force=[2.0, 0.0], clearance=0.5)
+        <WantedContact: gaps 0 to 0.7, load 2>
+        """
+        if pressure is not None and force is None:
+            area = known_cells(self.operator.cells).size
+            wanted, shape = area * self._points("pressure", pressure), self._shape_of(pressure)
+        elif force is not None and pressure is None:
+            wanted, shape = self._points("force", force), self._shape_of(force)
+        else:
+            raise error(Status.ERR_OPTION, "give one of pressure and force")
+        least = _arrays.number("clearance", clearance)
+        gap, reached, resultant = np.empty(shape), np.empty(shape), np.empty(self.mode_count)
+        shapes = {"force": shape, "point": shape}
+        with interruptible(), self._reading():
+            self._call("fuge_gap_for_pressure", wanted, least, gap, reached, resultant, shapes=shapes)
+        return WantedContact(gap, reached, resultant, self.operator.cells)
 
     def prove(self) -> Proof:
         """Bounds of the error of the last solution: of each force, gap and motion, rounding included.
@@ -492,7 +615,7 @@ class Solver(Owner):
         """
         check_matrix(self.operator)
         m = self.mode_count
-        end = _arrays.vector("finish", np.atleast_1d(_arrays.array("finish", finish)), m)
+        end = _motions("finish", finish, m)
         return collect_path(self.n, m, lambda *results: self._call("fuge_follow_path", end, *results))
 
     def _reading(self) -> ContextManager[Any]:
@@ -512,23 +635,14 @@ class Solver(Owner):
         self._get("fuge_get_resultant", pointer, resultant)
         self._get("fuge_get_states", pointer, state)
         self._get("fuge_get_info", pointer, ctypes.byref(report))
-        contact = Contact(
-            force, gap, motion, resultant, state, info_of(report), message, self.operator.cells, _prove=self._prover()
-        )
+        results = force, gap, motion, resultant, state, info_of(report), message, self.operator.cells
+        contact = Contact(*results, _solver=weakref.ref(self))
         self._found = weakref.ref(contact)
         return contact
 
-    def _prover(self) -> Callable[[Contact], Proof]:
-        """Proves a solution as long as it is the last one of this solver, which it does not keep alive."""
-        here = weakref.ref(self)
-
-        def prove(contact: Contact) -> Proof:
-            solver = here()
-            if solver is None or solver._found is None or solver._found() is not contact:
-                raise no_solver()
-            return solver.prove()
-
-        return prove
+    def _has_found(self, contact: Contact) -> bool:
+        """Is this the last solution?"""
+        return self._found is not None and self._found() is contact
 
     def _get_case(self, name: str, pointer: ctypes.c_void_p, *arguments: Any) -> None:
         end_call(function(name)(pointer, *arguments), lambda: self._read_message(pointer))
@@ -544,12 +658,29 @@ class Solver(Owner):
         """Shapes of the arrays with the laws of the points, for messages."""
         return dict.fromkeys(("compliance", "limit", "limit_upper"), self._shape)
 
+    def _force_weights(self, force: ArrayLike | None, pressure: ArrayLike | None) -> NDArray[np.float64] | None:
+        """Partial derivatives of an objective by the forces, from those by forces and by pressures."""
+        weights = None if force is None else self._points("force", force)
+        if pressure is None:
+            return weights
+        by_pressure = self._points("pressure", pressure) / known_cells(self.operator.cells).size
+        return by_pressure if weights is None else weights + by_pressure
+
+    def _shape_of(self, value: ArrayLike) -> tuple[int, ...]:
+        """The shape of results for an array with a value for each point, or one for all."""
+        return np.shape(value) or self.operator.grid or (self.n,)
+
     def _points(self, name: str, value: ArrayLike) -> NDArray[np.float64]:
         """One value for each point; a single number stands for all of them."""
         found = _arrays.array(name, value)
         if found.ndim == 0:
             return _arrays.spread(name, found, self.n)
         return self.operator._points(name, found).reshape(-1)
+
+
+def _motions(name: str, value: ArrayLike, m: int) -> NDArray[np.float64]:
+    """One value for each of m motions; a number for one."""
+    return _arrays.vector(name, np.atleast_1d(_arrays.array(name, value)), m)
 
 
 def solve(
@@ -655,8 +786,7 @@ def solve(
             for mode, value in (motion or {}).items():
                 solver.set_motion(mode, value)
         if motion_stiffness is not None:
-            values = np.atleast_1d(_arrays.array("motion_stiffness", motion_stiffness))
-            for mode, stiffness in enumerate(_arrays.vector("motion_stiffness", values, solver.mode_count)):
+            for mode, stiffness in enumerate(_motions("motion_stiffness", motion_stiffness, solver.mode_count)):
                 solver.set_motion_stiffness(mode, stiffness)
         contact: Contact = solver.solve()
         return replace(contact, proof=solver.prove()) if prove else contact

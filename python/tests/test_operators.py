@@ -371,7 +371,7 @@ class Grids(QuietRims):
     def test_no_cells(self):
         contact = fuge.solve(np.eye(2), [0.0, 1.0], 0.5)
         self.assertIsNone(contact.cells)
-        with self.assertRaisesRegex(ValueError, "divide contact.force by the area, or the width, of each cell"):
+        with self.assertRaisesRegex(ValueError, "forces, which are pressures times the area, or the width"):
             contact.pressure
         self.assertEqual(repr(fuge.DenseOperator(np.eye(2))), "DenseOperator(n=2)")
 

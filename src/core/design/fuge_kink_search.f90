@@ -4,7 +4,8 @@
 !> without force, or has a force that is just at its limit, is weakly active: to one side of the data it touches, to the
 !> other it is open.
 module fuge_kink_search
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, &
+    FUGE_OPEN
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_point_law, only: point_law
@@ -30,24 +31,29 @@ contains
     type(point_space), intent(in) :: space
     type(fuge_info), intent(in) :: info
     logical, intent(out) :: at_kink(:)
-    real(dp) :: farthest, little_force, precision, rigid
+    real(dp) :: little_gap(size(at_kink))
+    real(dp) :: little_force, precision
     integer :: j, k
 
     precision = ERRORS*max(info%force_error, info%residual, epsilon(precision))
     little_force = precision*space%largest(maxval(abs(solution%force)))
-    farthest = space%largest(maxval(abs(displacement)))
+    ! The terms of the gap equation.
+    little_gap = abs(problem%gap) + space%largest(maxval(abs(displacement)))
+    do j = 1, size(solution%motion)
+      if (allocated(problem%modes)) then
+        little_gap = little_gap + abs(problem%modes(:, lbound(problem%modes, 2) + j - 1)*solution%motion(j))
+      else
+        little_gap = little_gap + abs(solution%motion(j))
+      end if
+    end do
+    little_gap = precision*little_gap
+    if (.not. (allocated(problem%gap_upper) .or. allocated(problem%excluded) .or. problem%has_limits())) then
+      at_kink = merge(solution%gap <= little_gap, solution%force <= little_force, solution%state == FUGE_OPEN)
+      return
+    end if
     do k = 1, size(at_kink)
-      rigid = 0.0_dp
-      do j = 1, size(solution%motion)
-        if (allocated(problem%modes)) then
-          rigid = rigid + abs(problem%modes(lbound(problem%modes, 1) + k - 1, lbound(problem%modes, 2) + j - 1) &
-                              *solution%motion(j))
-        else
-          rigid = rigid + abs(solution%motion(j))
-        end if
-      end do
       at_kink(k) = is_on_border(problem%law(k), solution%state(k), solution%force(k), solution%gap(k), little_force, &
-                                precision*(abs(problem%gap(lbound(problem%gap, 1) + k - 1)) + rigid + farthest))
+                                little_gap(k))
     end do
   end subroutine mark_kinks
 

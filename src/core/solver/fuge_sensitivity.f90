@@ -42,6 +42,7 @@ contains
     logical, intent(in), optional :: wanted(:)
     real(dp), allocatable :: force(:), gap(:), motion(:), reduced_gap(:), load(:), unresisted(:, :)
     real(dp) :: datum, free_motion(size(canonical%load))
+    logical :: fits
     integer :: stat
 
     allocate (force(size(state)), gap(size(state)), motion(size(load_change)), stat=stat)
@@ -53,21 +54,21 @@ contains
     call find_unresisted_basis(canonical%modes, is_at_stop(state), unresisted)
     call refuse_unresisted(load, unresisted, info)
     if (info%failed()) return
-    call solve_refined(canonical, operator%alpha, datum, factor, is_at_stop(state), reduced_gap, load, force, &
-                       free_motion)
+    call solve_refined(canonical, operator%alpha, [datum, factor%datum], factor, is_at_stop(state), reduced_gap, load, &
+                       force, free_motion, fits)
     free_motion = without_unresisted(free_motion, unresisted)
     if (is_rigid(canonical%modes, reduced_gap, load, free_motion, is_at_stop(state))) force = 0.0_dp
     gap = reduced_gap - rigid_displacement(canonical%modes, free_motion)
     if (present(wanted)) then
-      call add_displacement_at(operator%alpha, datum, is_at_stop(state), .not. (is_at_stop(state) .or. wanted), &
-                               force, gap)
+      call add_displacement_at(operator%alpha, datum, is_at_stop(state), &
+                               .not. (wanted .or. (is_at_stop(state) .and. .not. fits)), force, gap)
     else
       call add_elastic_displacement(operator%alpha, datum, is_at_stop(state), force, gap)
     end if
     ! A regularised factor leaves gaps open where the changes do not fit to a singular alpha.
-    if (.not. (factor%regularisation > 0.0_dp &
-               .or. is_closed(canonical%modes, operator%alpha, [datum, factor%datum], is_at_stop(state), &
-                              reduced_gap, force, free_motion, gap))) then
+    if (.not. (fits .or. factor%regularisation > 0.0_dp)) fits = is_closed(canonical%modes, operator%alpha, &
+      [datum, factor%datum], is_at_stop(state), reduced_gap, force, free_motion, gap)
+    if (.not. (fits .or. factor%regularisation > 0.0_dp)) then
       call report(info, FUGE_ERR_CALL_ORDER, 'the factor of the last solve does not fit alpha: set a new operator ' &
                   //'after a change of alpha, and solve again; or alpha is too badly conditioned')
       return
@@ -83,22 +84,25 @@ contains
   end subroutine find_derivative
 
   !> Forces (n) and free motions (m) of the set in `contact` (n), whose factor has lost digits where alpha is badly
-  !> conditioned or there are several modes: corrected once by the residuals. The arguments are nine, because the
-  !> datum is taken out of alpha for the residuals.
-  subroutine solve_refined(canonical, alpha, datum, factor, contact, reduced_gap, load, force, motion)
+  !> conditioned or there are several modes: corrected once by the residuals. `fits`: the gaps were closed before that
+  !> already, but for rounding. The arguments are ten, because the datum is taken out of alpha for the residuals:
+  !> `datums` that of the operator, and that of the factor.
+  subroutine solve_refined(canonical, alpha, datums, factor, contact, reduced_gap, load, force, motion, fits)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in), contiguous :: alpha(:, :)
-    real(dp), intent(in) :: datum, reduced_gap(:), load(:)
+    real(dp), intent(in) :: datums(2), reduced_gap(:), load(:)
     type(kkt_factor), intent(in) :: factor
     logical, intent(in) :: contact(:)
     real(dp), intent(out) :: force(:), motion(:)
+    logical, intent(out) :: fits
     real(dp) :: residual(size(force)), correction(size(force)), missing(size(motion)), shift(size(motion))
 
-    call solve_set(factor, datum, reduced_gap, load, force, motion)
+    call solve_set(factor, datums(1), reduced_gap, load, force, motion)
     residual = reduced_gap - rigid_displacement(canonical%modes, motion)
-    call add_displacement_at(alpha, datum, contact, .not. contact, force, residual)
+    call add_displacement_at(alpha, datums(1), contact, .not. contact, force, residual)
+    fits = is_closed(canonical%modes, alpha, datums, contact, reduced_gap, force, motion, residual)
     missing = load - matmul(force, canonical%modes)
-    call solve_set(factor, datum, residual, missing, correction, shift)
+    call solve_set(factor, datums(1), residual, missing, correction, shift)
     force = force + correction
     motion = motion + shift
   end subroutine solve_refined

@@ -74,8 +74,27 @@ contains
     logical, intent(in), target :: contact(:), passed_over(:)
     real(dp), intent(inout), target, contiguous :: u(:)
 
-    call add_in_parts(alpha, datum, contact, passed_over, force, POINT_BY_POINT, u)
+    ! Of a symmetric matrix columns and rows are the same: the fewer of them.
+    if (count(contact) < count(.not. passed_over)) then
+      call add_to_some(alpha, datum, contact, passed_over, force, u)
+    else
+      call add_in_parts(alpha, datum, contact, passed_over, force, POINT_BY_POINT, u)
+    end if
   end subroutine add_displacement_at
+
+  !> By columns, to a copy of u where that stays as it is.
+  subroutine add_to_some(alpha, datum, contact, passed_over, force, u)
+    real(dp), intent(in), target, contiguous :: alpha(:, :)
+    real(dp), intent(in), target, contiguous :: force(:)
+    real(dp), intent(in) :: datum
+    logical, intent(in), target :: contact(:), passed_over(:)
+    real(dp), intent(inout), contiguous :: u(:)
+    real(dp), target :: added(size(u))
+
+    added = u
+    call add_in_parts(alpha, datum, contact, contact, force, ALL_POINTS, added)
+    where (.not. passed_over) u = added
+  end subroutine add_to_some
 
   !> As `add_elastic_displacement`, but needed at open points only; what is added to u at points in contact is left
   !> undefined. Forces are zero at open points.
@@ -162,12 +181,22 @@ contains
     logical, intent(in) :: contact(:), passed_over(:)
     integer, intent(in) :: first, last
     real(dp), intent(inout), contiguous :: u(:)
-    integer :: from, k, to
+    real(dp) :: added(4)
+    integer :: from, k, points(4), to, waiting
 
     from = findloc_contact(contact, 1, size(contact))
     to = findloc_contact(contact, size(contact), 1)
+    waiting = 0
     do k = first, last
-      if (.not. passed_over(k)) u(k) = u(k) + displacement_at(alpha(from:to, k), datum, force(from:to))
+      if (passed_over(k)) cycle
+      waiting = waiting + 1
+      ! The last of them stand for four.
+      points(waiting:) = k
+      if (waiting < 4 .and. .not. all(passed_over(k + 1:last))) cycle
+      added = displacements_at(alpha(from:to, points(1)), alpha(from:to, points(2)), alpha(from:to, points(3)), &
+                               alpha(from:to, points(4)), datum, force(from:to))
+      u(points(:waiting)) = u(points(:waiting)) + added(:waiting)
+      waiting = 0
     end do
   end subroutine add_at_points
 
@@ -200,26 +229,37 @@ contains
     point = to
   end function findloc_contact
 
-  !> (row - datum).force, in four sums that the processor can add side by side.
-  pure function displacement_at(row, datum, force) result(displacement)
-    real(dp), intent(in), contiguous :: row(:), force(:)
+  !> (row - datum).force for four rows together, which load the forces once, each in two sums that the processor adds
+  !> side by side.
+  pure function displacements_at(a, b, c, d, datum, force) result(displacement)
+    real(dp), intent(in), contiguous :: a(:), b(:), c(:), d(:), force(:)
     real(dp), intent(in) :: datum
-    real(dp) :: displacement, sums(4)
-    integer :: k, whole
+    real(dp) :: displacement(4)
+    real(dp) :: a1, a2, b1, b2, c1, c2, d1, d2
+    integer :: k
 
-    sums = 0.0_dp
-    whole = size(row) - modulo(size(row), 4)
-    do k = 1, whole, 4
-      sums(1) = sums(1) + (row(k) - datum)*force(k)
-      sums(2) = sums(2) + (row(k + 1) - datum)*force(k + 1)
-      sums(3) = sums(3) + (row(k + 2) - datum)*force(k + 2)
-      sums(4) = sums(4) + (row(k + 3) - datum)*force(k + 3)
+    a1 = 0.0_dp
+    a2 = 0.0_dp
+    b1 = 0.0_dp
+    b2 = 0.0_dp
+    c1 = 0.0_dp
+    c2 = 0.0_dp
+    d1 = 0.0_dp
+    d2 = 0.0_dp
+    do k = 1, size(force) - 1, 2
+      a1 = a1 + (a(k) - datum)*force(k)
+      a2 = a2 + (a(k + 1) - datum)*force(k + 1)
+      b1 = b1 + (b(k) - datum)*force(k)
+      b2 = b2 + (b(k + 1) - datum)*force(k + 1)
+      c1 = c1 + (c(k) - datum)*force(k)
+      c2 = c2 + (c(k + 1) - datum)*force(k + 1)
+      d1 = d1 + (d(k) - datum)*force(k)
+      d2 = d2 + (d(k + 1) - datum)*force(k + 1)
     end do
-    do k = whole + 1, size(row)
-      sums(1) = sums(1) + (row(k) - datum)*force(k)
-    end do
-    displacement = (sums(1) + sums(2)) + (sums(3) + sums(4))
-  end function displacement_at
+    displacement = [a1 + a2, b1 + b2, c1 + c2, d1 + d2]
+    k = size(force)
+    if (modulo(k, 2) == 1) displacement = displacement + ([a(k), b(k), c(k), d(k)] - datum)*force(k)
+  end function displacements_at
 
   !> The rows `first` to `last` of `add_elastic_displacement`.
   pure subroutine add_in_rows(alpha, datum, contact, force, first, last, u)
