@@ -32,7 +32,8 @@ PROGRAMS = {"accuracy": "accuracy", "graded": "graded_cells", "costs": "costs", 
             "steps": "load_steps", "stresses": "stresses", "rough": "rough_grids", "one_way": "structures",
             "load_cases": "load_cases", "increments": "increments", "threads": "threads",
             "threads_model": "threads_model", "layered_waves": "layered_waves",
-            "layered_surfaces": "layered_surfaces", "proofs": "proofs"}
+            "layered_surfaces": "layered_surfaces", "proofs": "proofs",
+            "gradients": "gradients"}
 # The rows of these that the manual has; all of the others.
 ROWS = {"graded": r"\| (?:contact|---|(?:cylinder|flat|lifted) \| (?:64|256) )"}
 # Words of the programs, and those of the manual; and columns that the manual does not have.

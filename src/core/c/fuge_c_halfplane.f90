@@ -1,10 +1,11 @@
-!> C bindings, section "half-plane": analytic influence matrices, and cells for them.
+!> C bindings, sections "half-plane", with analytic influence matrices and cells for them, and "edges of contact".
 module fuge_c_halfplane
-  use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
-  use fuge_c_arrays, only: find_array
+  use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_double, c_ptr, c_size_t
+  use fuge_c_arrays, only: find_array, give
   use fuge_c_operator, only: find_matrix
-  use fuge_c_types, only: report_to_c
+  use fuge_c_types, only: report_to_c, require_count, require_pointer
   use fuge_cell_grading, only: fuge_graded_cells
+  use fuge_edge_refinement, only: fuge_contact_edges, fuge_interval
   use fuge_halfplane_influence, only: fuge_halfplane_matrix
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE
@@ -50,5 +51,45 @@ contains
                                                     int([left_beyond, right_beyond]), centre, breadth, info)
     status = report_to_c(info, message, length)
   end function c_graded_cells
+
+  !> Eighteen arguments, as in the header: cells, forces and their law, an array for each component of an interval, the
+  !> message.
+  function c_contact_edges(n, x, width, force, state, compliance, element, symmetric, capacity, left, right, &
+                           left_error, right_error, left_kind, right_kind, number, message, length) &
+    bind(c, name='fuge_contact_edges') result(status)
+    integer(c_int), intent(in), value :: n, element, symmetric, capacity
+    type(c_ptr), intent(in), value :: x, width, force, state, compliance, left, right, left_error, right_error
+    type(c_ptr), intent(in), value :: left_kind, right_kind, number, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    real(c_double), pointer :: centre(:), breadth(:), forces(:), compliances(:)
+    integer(c_int), pointer :: states(:)
+    type(fuge_interval), allocatable :: intervals(:)
+    type(fuge_info) :: info
+    integer :: count
+
+    call require_count(n, 1, 'n', 'cells', info)
+    call require_count(capacity, 0, 'capacity', 'elements of each array', info)
+    call find_array(n, x, 'x', centre, info)
+    call find_array(n, width, 'width', breadth, info)
+    call find_array(n, force, 'force', forces, info)
+    call require_pointer(number, 'count', info)
+    ! Null: without states, without compliances.
+    nullify (states, compliances)
+    if (c_associated(state)) call find_array(n, state, 'state', states, info)
+    if (c_associated(compliance)) call find_array(n, compliance, 'compliance', compliances, info)
+    if (.not. info%failed()) call fuge_contact_edges(centre, breadth, forces, int(element), intervals, info, &
+                                                     symmetric /= 0, states, compliances)
+    status = report_to_c(info, message, length)
+    if (info%failed()) return
+    count = min(size(intervals), int(capacity))
+    call give(intervals(:count)%left, left)
+    call give(intervals(:count)%right, right)
+    call give(intervals(:count)%left_error, left_error)
+    call give(intervals(:count)%right_error, right_error)
+    call give(intervals(:count)%left_kind, left_kind)
+    call give(intervals(:count)%right_kind, right_kind)
+    call give(size(intervals), number)
+  end function c_contact_edges
 
 end module fuge_c_halfplane

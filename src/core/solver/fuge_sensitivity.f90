@@ -28,9 +28,11 @@ contains
   !> Changes of forces, gaps and motions at a fixed contact set, by solves with its factor.
   !>
   !> `operator` that of the solve; `factor` of the set in `state` (n); `gap_change` (n) length, `load_change` (m) of
-  !> the resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`, with the
-  !> changes of open gaps where they are `wanted` (n) only, or everywhere. Errors, `change` untouched: FUGE_ERR_NO_EQUILIBRIUM if the contact set does not resist a mode that the changes load,
-  !> FUGE_ERR_CALL_ORDER if the factor does not belong to the matrix, which has changed in place, FUGE_ERR_MEMORY.
+  !> the resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`. The
+  !> arguments are nine, because changes of open gaps may be left out: `wanted` (n) says where they are needed, which is
+  !> everywhere without it. Errors, `change` untouched: FUGE_ERR_NO_EQUILIBRIUM if the contact set does not resist a mode
+  !> that the changes load, FUGE_ERR_CALL_ORDER if the factor does not belong to the matrix, which has changed in place,
+  !> FUGE_ERR_MEMORY.
   subroutine find_derivative(canonical, operator, factor, state, gap_change, load_change, change, info, wanted)
     type(canonical_problem), intent(in) :: canonical
     class(fuge_dense_operator), intent(in) :: operator
