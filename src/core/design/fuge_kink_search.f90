@@ -32,12 +32,11 @@ contains
     type(fuge_info), intent(in) :: info
     logical, intent(out) :: at_kink(:)
     real(dp) :: little_gap(size(at_kink))
-    real(dp) :: little_force, precision
+    real(dp) :: little_force
     integer :: j, k
 
-    precision = ERRORS*max(info%force_error, info%residual, epsilon(precision))
-    little_force = precision*space%largest(maxval(abs(solution%force)))
-    ! The terms of the gap equation.
+    little_force = ERRORS*max(info%force_error, epsilon(1.0_dp))*space%largest(maxval(abs(solution%force)))
+    ! The residual is that of the gap equation, relative to its terms, and smaller than the error of the forces.
     little_gap = abs(problem%gap) + space%largest(maxval(abs(displacement)))
     do j = 1, size(solution%motion)
       if (allocated(problem%modes)) then
@@ -46,7 +45,7 @@ contains
         little_gap = little_gap + abs(solution%motion(j))
       end if
     end do
-    little_gap = precision*little_gap
+    little_gap = ERRORS*max(info%residual, epsilon(1.0_dp))*little_gap
     if (.not. (allocated(problem%gap_upper) .or. allocated(problem%excluded) .or. problem%has_limits())) then
       at_kink = merge(solution%gap <= little_gap, solution%force <= little_force, solution%state == FUGE_OPEN)
       return
