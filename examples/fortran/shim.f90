@@ -44,7 +44,7 @@ program shim
 contains
 
   subroutine run()
-    type(shimmed_joint) :: joined
+    type(shimmed_joint), target :: joined
     type(fuge_dense_operator) :: operator
     type(fuge_info) :: info
     type(shimmed_state) :: state(SHIMS)

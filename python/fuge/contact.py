@@ -102,7 +102,7 @@ class Contact:
         CallOrderError
             The solver has gone, or has solved another problem since.
         """
-        return self._last_solver().prove() if self.proof is None else self.proof
+        return self._last_solver()._prove(self) if self.proof is None else self.proof
 
     def vjp(
         self,
@@ -126,17 +126,13 @@ class Contact:
         CallOrderError
             The solver has gone, or has solved another problem since.
         """
-        return self._last_solver().vjp(force=force, gap=gap, motion=motion, pressure=pressure)
+        return self._last_solver()._vjp(self, force, gap, motion, pressure)
 
     def _last_solver(self) -> Solver:
-        """The solver whose last solution this is."""
+        """The solver whose solution this is; whether the last one, it says itself."""
         solver = None if self._solver is None else self._solver()
-        if solver is None or not solver._has_found(self):
-            raise error(
-                Status.ERR_CALL_ORDER,
-                "the solver of this solution has gone, or has solved another problem since: make a fuge.Solver and "
-                "keep it, and call this before it solves again; for a proof pass prove=True to fuge.solve",
-            )
+        if solver is None:
+            raise no_solver()
         return solver
 
     @property
@@ -197,6 +193,15 @@ class Derivative:
     force: NDArray[np.float64]
     gap: NDArray[np.float64]
     motion: NDArray[np.float64]
+
+
+def no_solver() -> Exception:
+    """The error of a solution that is not the last one of a solver that is still there."""
+    return error(
+        Status.ERR_CALL_ORDER,
+        "the solver of this solution has gone, or has solved another problem since: make a fuge.Solver and keep it, and "
+        "call this before it solves again; for a proof pass prove=True to fuge.solve",
+    )
 
 
 @dataclass(frozen=True, eq=False)

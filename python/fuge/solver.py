@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import ctypes
 import weakref
+from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any, Callable, ContextManager, Literal, Mapping
+from typing import Any, Callable, ContextManager, Iterator, Literal, Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +18,7 @@ from fuge._messages import in_python
 from fuge._words import Words
 from fuge.cases import Cases
 from fuge.cells import known_cells
-from fuge.contact import Contact, Derivative, History, Info, info_of
+from fuge.contact import Contact, Derivative, History, Info, info_of, no_solver
 from fuge.design import Gradients, WantedContact
 from fuge.errors import GridWarning, Status, error, warn
 from fuge.operators import DenseOperator, Operator
@@ -291,9 +292,8 @@ class Solver(Owner):
             Modes depend on each other.
         LimitError, UnsupportedError, CallbackError, CancelledError
         """
-        handle = self._handle
-        self._found = None
-        with interruptible(), self._reading(), handle.use() as pointer:
+        with interruptible(), self._reading(), self._handle.use() as pointer:
+            self._found = None
             code = function("fuge_solve")(pointer)
             message = in_python(self._read_message(pointer), self._shapes)
             # Before the warning, which the caller may turn into an exception.
@@ -407,12 +407,12 @@ class Solver(Owner):
         EquilibriumError
             The contact does not resist what the changes load.
         """
-        m = self.mode_count
         gaps = None if gap_change is None else self._points("gap_change", gap_change)
-        loads = None if load_change is None else _motions("load_change", load_change, m)
-        force, gap, motion = np.empty(self._shape), np.empty(self._shape), np.empty(m)
-        with interruptible(), self._reading():
-            self._call("fuge_get_derivatives", gaps, loads, force, gap, motion)
+        with self._alone() as (pointer, m):
+            loads = None if load_change is None else _motions("load_change", load_change, m)
+            force, gap, motion = np.empty(self._shape), np.empty(self._shape), np.empty(m)
+            code = function("fuge_get_derivatives")(pointer, gaps, loads, force, gap, motion)
+            end_call(code, lambda: self._read_message(pointer), self._shapes)
         return Derivative(force, gap, motion)
 
     def vjp(
@@ -468,17 +468,27 @@ class Solver(Owner):
         >>> solver.vjp(motion=1.0)
         <Gradients: by 2 gaps up to 1, load 0.2, log_modulus -0.4, 0 points at a kink>
         """
-        m, shape = self.mode_count, self._shape
+        return self._vjp(None, force, gap, motion, pressure)
+
+    def _vjp(
+        self,
+        contact: Contact | None,
+        force: ArrayLike | None,
+        gap: ArrayLike | None,
+        motion: ArrayLike | None,
+        pressure: ArrayLike | None,
+    ) -> Gradients:
+        """The gradient at `contact`, which must be the last solution, or at the last solution."""
         by_gap = None if gap is None else self._points("gap", gap)
-        by_motion = None if motion is None else _motions("motion", motion, m)
-        weights = self._force_weights(force, pressure), by_gap, by_motion
-        gaps, compliance, gap_upper, limit, limit_upper = (np.empty(shape) for _ in range(5))
-        load, motion_stiffness = np.empty(m), np.empty(m)
-        log_modulus, at_kink = np.empty(1), np.empty(shape, dtype=np.intc)
-        results = gaps, load, compliance, motion_stiffness, gap_upper, limit, limit_upper
-        with interruptible(), self._reading(), self._handle.use() as pointer:
-            code = function("fuge_get_gradients")(pointer, *weights, *results, log_modulus, at_kink)
-            message = in_python(self._read_message(pointer), self._shapes)
+        by_force = self._force_weights(force, pressure)
+        with self._alone(contact) as (pointer, m):
+            by_motion = None if motion is None else _motions("motion", motion, m)
+            gaps, compliance, gap_upper, limit, limit_upper = (np.empty(self._shape) for _ in range(5))
+            load, motion_stiffness = np.empty(m), np.empty(m)
+            log_modulus, at_kink = np.empty(1), np.empty(self._shape, dtype=np.intc)
+            results = gaps, load, compliance, motion_stiffness, gap_upper, limit, limit_upper
+            code = function("fuge_get_gradients")(pointer, by_force, by_gap, by_motion, *results, log_modulus, at_kink)
+            message = in_python(self._read_message(pointer), self._shapes).replace("_weight", "")
             # Other warnings are those of the solve, which has given them.
             end_call(min(code, 0) if code != Status.WARN_KINK else code, lambda: message)
         return Gradients(*results, float(log_modulus[0]), at_kink != 0)
@@ -532,10 +542,11 @@ class Solver(Owner):
         else:
             raise error(Status.ERR_OPTION, "give one of pressure and force")
         least = _arrays.number("clearance", clearance)
-        gap, reached, resultant = np.empty(shape), np.empty(shape), np.empty(self.mode_count)
-        shapes = {"force": shape, "point": shape}
-        with interruptible(), self._reading():
-            self._call("fuge_gap_for_pressure", wanted, least, gap, reached, resultant, shapes=shapes)
+        gap, reached = np.empty(shape), np.empty(shape)
+        with self._alone() as (pointer, m):
+            resultant = np.empty(m)
+            code = function("fuge_gap_for_pressure")(pointer, wanted, least, gap, reached, resultant)
+            end_call(code, lambda: self._read_message(pointer), {"force": shape, "point": shape})
         return WantedContact(gap, reached, resultant, self.operator.cells)
 
     def prove(self) -> Proof:
@@ -570,12 +581,13 @@ class Solver(Owner):
         >>> bool(proof.force_bound.max() < 1e-15), proof.proved
         (True, array([ True,  True]))
         """
-        force, proved = np.empty(self._shape), np.empty(self._shape, dtype=np.intc)
-        force_bound, gap_bound = np.empty(self._shape), np.empty(self._shape)
-        count = np.empty(1, dtype=np.intc)
-        with interruptible(), self._reading(), self._handle.use() as pointer:
-            self._get("fuge_get_mode_count", pointer, count)
-            motion_bound = np.empty(int(count[0]))
+        return self._prove(None)
+
+    def _prove(self, contact: Contact | None) -> Proof:
+        """The proof of `contact`, which must be the last solution, or of the last solution."""
+        with self._alone(contact) as (pointer, m):
+            force, proved = np.empty(self._shape), np.empty(self._shape, dtype=np.intc)
+            force_bound, gap_bound, motion_bound = np.empty(self._shape), np.empty(self._shape), np.empty(m)
             code = function("fuge_prove")(pointer, force_bound, gap_bound, motion_bound, proved)
             message = in_python(self._read_message(pointer), self._shapes)
             if code >= 0:
@@ -617,6 +629,19 @@ class Solver(Owner):
         m = self.mode_count
         end = _motions("finish", finish, m)
         return collect_path(self.n, m, lambda *results: self._call("fuge_follow_path", end, *results))
+
+    @contextmanager
+    def _alone(self, contact: Contact | None = None) -> Iterator[tuple[ctypes.c_void_p, int]]:
+        """The pointer and the number of motions, which no other thread changes meanwhile.
+
+        An error unless `contact`, if it is given, is the last solution.
+        """
+        count = np.empty(1, dtype=np.intc)
+        with interruptible(), self._reading(), self._handle.use() as pointer:
+            if contact is not None and not self._has_found(contact):
+                raise no_solver()
+            self._get("fuge_get_mode_count", pointer, count)
+            yield pointer, int(count[0])
 
     def _reading(self) -> ContextManager[Any]:
         """A context in which no call can change the operator; the caller may have closed it."""

@@ -174,8 +174,10 @@ contains
     if (my_rank() > 0) return
     call expect(abs(info%products - whole_info%products) <= 1, name//': products')
     call expect(maxval(abs(gap - whole_gradients%gap)) <= 1.0e-8_dp*maxval(abs(gap)), name//': gaps')
-    call expect(all(abs(gradients%load - whole_gradients%load) <= 1.0e-8_dp*maxval(abs(gradients%load))), name//': loads')
-    call expect(abs(gradients%log_modulus - whole_gradients%log_modulus) <= 1.0e-8_dp*maxval(abs(gap)), name//': modulus')
+    call expect(all(abs(gradients%load - whole_gradients%load) <= 1.0e-8_dp*maxval(abs(gradients%load))), &
+                name//': loads')
+    call expect(abs(gradients%log_modulus - whole_gradients%log_modulus) <= 1.0e-8_dp*maxval(abs(gap)), &
+                name//': modulus')
     write (*, '(a,t36,2i6,es10.2)') name, info%products, whole_info%products, &
       maxval(abs(gap - whole_gradients%gap))/maxval(abs(gap))
   end subroutine compare_gradients
@@ -205,7 +207,8 @@ contains
     call fuge_gap_for_pressure(shared, problem, solution%force, 0.001_dp, wanted, info)
     call expect(info%status == FUGE_DONE, name//': '//trim(info%message))
     if (info%failed()) return
-    if (my_rank() == 0) call fuge_gap_for_pressure(whole, whole_problem, expected%force, 0.001_dp, whole_wanted, whole_info)
+    if (my_rank() == 0) call fuge_gap_for_pressure(whole, whole_problem, expected%force, 0.001_dp, whole_wanted, &
+                                                   whole_info)
     call gather(wanted%gap, gap)
     if (my_rank() > 0) return
     call expect(maxval(abs(gap - whole_wanted%gap)) <= 1.0e-8_dp*maxval(abs(gap)), name//': gaps')

@@ -9,23 +9,23 @@
 !> objective in the places of the changes of gaps and loads, and every engine that has derivatives has gradients
 !> (doc/theory.md).
 module fuge_adjoint_solution
-  use fuge_contact_states, only: is_at_stop, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, FUGE_OPEN
+  use fuge_contact_states, only: is_at_stop
   use fuge_displacements, only: add_displacement_at
   use fuge_gradients_type, only: fuge_gradients
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_kink_search, only: mark_kinks, warn_of_kinks
-  use fuge_law_gradients, only: find_law_gradients, set_displacement
+  use fuge_law_gradients, only: find_law_gradients, find_limited, set_displacement
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
-  use fuge_problem_modes, only: has_free_datum, prescribed_motions, resultants_of
-  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_problem_modes, only: free_translation, prescribed_motions, resultant_terms, resultants_of
+  use fuge_problem_type, only: check_problem, fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OPTION, &
-    FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_NO_EQUILIBRIUM, &
+    FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
   use fuge_shared_problem, only: differ
   use fuge_threads, only: thread_team
   implicit none
@@ -33,15 +33,25 @@ module fuge_adjoint_solution
 
   public :: fuge_solve_adjoint
 
+  !> The sum of weights that cancel may be rounded by this many units in the last place of its terms.
+  real(dp), parameter :: ROUNDINGS = 64.0_dp
+
   !> Weights of the objective on a contact set, and what follows from them.
   type :: adjoint_weights
-    !> Partial derivatives by forces, and by the gaps that are free, (n), and by motions, (m).
-    real(dp), allocatable :: force(:), gap(:), motion(:)
+    !> Partial derivatives by all forces, gaps and motions, zero where there are none, divided by 2**power so that the
+    !> largest is about 1.
+    type(fuge_solution) :: given
+    integer :: power = 0
+    !> Those by the gaps that are free, (n), and by the motions with which these move, (m).
+    real(dp), allocatable :: gap(:), motion(:)
     !> Displacements by the weights of the gaps as forces, (A + D) gap, (n), where a gap or a force is fixed by its
-    !> point; length times the unit of the weights.
+    !> point, less a constant that a translation takes up; length times the unit of the weights.
     real(dp), allocatable :: displacement(:)
-    !> A constant that these leave out, because it is one of the translation alone.
-    real(dp) :: left_out = 0.0_dp
+    real(dp) :: constant = 0.0_dp
+    !> That translation, (m); zero if there is none.
+    real(dp), allocatable :: translation(:)
+    !> Is the gap given by a stop, or the force by the limit of the lower or the upper stop, (n)?
+    logical, allocatable :: held(:), lower(:), upper(:)
   end type adjoint_weights
 
 contains
@@ -50,15 +60,15 @@ contains
   !> set stays, over all gaps, loads, and the other data of the problem, in the time of one derivative.
   !>
   !> `operator`, `problem` and `solution` those of the last solve. `weight` the partial derivatives of J by `force` (n),
-  !> `gap` (n) and `motion` (m); those that are not allocated are zero. `gradients` see there. A solve with a factor takes
-  !> triangular solves with it; after the iteration it takes products on the contact set, to the tolerance of the solve,
-  !> and one more if there are weights of open gaps. `info` is that of the solve, whose warnings hold for the gradient
-  !> too, with these products added; FUGE_WARN_KINK if there is none, but points on the border between two states, which
-  !> gradients%at_kink has. Errors, `gradients` untouched: FUGE_ERR_CALL_ORDER without a solution with a load, or if
-  !> `solution` is not the last one; FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE; FUGE_ERR_OPTION where weights of motions differ
-  !> between ranks; those of the derivative, FUGE_ERR_NO_EQUILIBRIUM if J depends on a motion that the contact does not
-  !> resist; those of the product. T. F. Conry and A. Seireg, J. Applied Mechanics 38 (1971), 387-392, design with such
-  !> problems.
+  !> `gap` (n) and `motion` (m); those that are not allocated are zero. `gradients` see there. A solve with a factor
+  !> takes triangular solves with it; after the iteration it takes products on the contact set, to the tolerance of the
+  !> solve, and one more if there are weights of open gaps. `info` is that of the solve, whose warnings hold for the
+  !> gradient too, with these products added; FUGE_WARN_KINK if there is none, but points on the border between two
+  !> states, which gradients%at_kink has. Errors, `gradients` untouched: FUGE_ERR_CALL_ORDER without a solution with a
+  !> load, or if `solution` is not the last one; FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE; FUGE_ERR_OPTION where weights of
+  !> motions differ between ranks; those of the derivative, FUGE_ERR_NO_EQUILIBRIUM if J depends on a motion that the
+  !> contact does not resist; FUGE_ERR_OVERFLOW; those of the product. T. F. Conry and A. Seireg, J. Applied Mechanics
+  !> 38 (1971), 387-392, design with such problems.
   subroutine fuge_solve_adjoint(solver, operator, problem, solution, weight, gradients, info)
     class(fuge_solver), intent(in) :: solver
     class(fuge_operator), intent(in) :: operator
@@ -68,35 +78,34 @@ contains
     type(fuge_info), intent(out) :: info
     type(adjoint_weights) :: weights
     type(fuge_gradients) :: new
-    type(fuge_info) :: before
     type(fuge_solution) :: adjoint
     type(point_space) :: space
+    integer :: products
 
     space = operator%ranks()
     call check_solution(solver, operator, problem, solution, info)
     if (.not. info%failed()) call check_weights(weight, operator%points(), problem%mode_count(), info)
     call space%agree(info)
     if (info%failed()) return
-    call set_weights(operator, problem, solution, weight, solver%thread_count(), space, weights, before)
-    if (before%failed()) then
-      info = before
-      return
-    end if
-    associate (held => is_at_stop(solution%state))
-      call solver%derivative(operator, merge(-(weights%force + weights%displacement), 0.0_dp, held), &
-                             merge(0.0_dp, -weights%motion, prescribed_motions(problem)), &
-                             abs(solution%state) > 1, adjoint, info)
-    end associate
-    if (info%status == FUGE_ERR_NO_EQUILIBRIUM) call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the objective depends on a ' &
-      //'motion that the contact does not resist, and so has no gradient: leave weights of that motion out, and those ' &
-      //'of the gaps that it moves')
+    call set_weights(operator, problem, solution, weight, solver%thread_count(), space, weights, info)
     if (info%failed()) return
-    info%products = info%products + before%products
+    products = info%products
+    call solver%derivative(operator, merge(-(weights%given%force + weights%displacement), 0.0_dp, weights%held), &
+                           merge(0.0_dp, -weights%motion, prescribed_motions(problem)), &
+                           weights%lower .or. weights%upper, adjoint, info)
+    if (info%status == FUGE_ERR_NO_EQUILIBRIUM) call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'the objective depends on ' &
+      //'a motion that the contact does not resist, and so has no gradient: leave weights of that motion out, and ' &
+      //'those of the gaps that it moves')
+    if (info%failed()) return
+    info%products = info%products + products
     call allocate_gradients(problem, solution, new, info)
     call space%agree(info)
     if (info%failed()) return
     call set_gradients(problem, solution, weights, adjoint, space, new)
-    call mark_and_warn(problem, solution, weight, space, new, info)
+    call set_law_gradients(operator, problem, solution, weights, space, new, info)
+    if (.not. info%failed()) call restore_power(weights%power, space, new, info)
+    if (info%failed()) return
+    call warn_of_kinks(new%at_kink, space, info)
     call move_gradients(new, gradients)
   end subroutine fuge_solve_adjoint
 
@@ -122,6 +131,8 @@ contains
                   //text(size(solution%motion))//' motion(s), the problem '//text(problem%points())//' and ' &
                   //text(problem%mode_count())//', the operator '//text(operator%points())//' points: pass those of ' &
                   //'the last solve')
+    else
+      call check_problem(problem, operator%points(), info)
     end if
   end subroutine check_solution
 
@@ -161,38 +172,72 @@ contains
     type(adjoint_weights), intent(inout) :: weights
     type(fuge_info), intent(inout) :: info
     type(thread_team) :: team
-    integer :: m, n, stat
 
-    n = size(solution%state)
-    m = problem%mode_count()
-    allocate (weights%force(n), weights%gap(n), weights%displacement(n), weights%motion(m), stat=stat)
-    call require_memory(stat, 'the weights of', n, 'points', info)
+    call allocate_weights(size(solution%state), problem%mode_count(), weights, info)
     call space%agree(info)
     if (info%failed()) return
-    weights%force = 0.0_dp
-    weights%gap = 0.0_dp
-    weights%displacement = 0.0_dp
-    weights%motion = 0.0_dp
-    if (allocated(weight%motion)) weights%motion = weight%motion
-    if (differ(weights%motion, space)) then
+    call scale_weights(weight, space, weights)
+    if (differ(weights%given%motion, space)) then
       call report(info, FUGE_ERR_OPTION, 'motion_weight differs between the ranks')
       return
     end if
-    if (allocated(weight%force)) weights%force = weight%force
-    if (allocated(weight%gap)) weights%gap = merge(0.0_dp, weight%gap, is_at_stop(solution%state))
+    weights%held = is_at_stop(solution%state)
+    call find_limited(problem, solution, weights%lower, weights%upper)
+    weights%translation = free_translation(problem, space)
+    weights%gap = merge(0.0_dp, weights%given%gap, weights%held)
+    weights%motion = weights%given%motion
+    weights%displacement = 0.0_dp
     if (.not. space%anywhere(any(abs(weights%gap) > 0.0_dp))) return
     call team%begin(threads)
-    call displace_by_weights(operator, problem, solution, space, weights, info)
+    call displace_by_weights(operator, problem, space, weights, info)
     call team%end()
     if (info%failed()) return
-    weights%motion = weights%motion - resultants_of(problem, weights%gap, space)
+    weights%motion = weights%given%motion - resultants_of(problem, weights%gap, space)
+    ! A motion whose weights cancel is not in the objective.
+    where (abs(weights%motion) <= ROUNDINGS*epsilon(1.0_dp)*(abs(weights%given%motion) &
+                                                             + resultant_terms(problem, weights%gap, space)))
+      weights%motion = 0.0_dp
+    end where
   end subroutine set_weights
 
+  subroutine allocate_weights(n, m, weights, info)
+    integer, intent(in) :: n, m
+    type(adjoint_weights), intent(inout) :: weights
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (weights%given%force(n), weights%given%gap(n), weights%given%motion(m), weights%gap(n), &
+              weights%motion(m), weights%displacement(n), weights%translation(m), weights%held(n), weights%lower(n), &
+              weights%upper(n), stat=stat)
+    call require_memory(stat, 'the weights of', n, 'points', info)
+  end subroutine allocate_weights
+
+  !> The weights with a largest of about 1: the gradient is linear in them, and their range is left to the data.
+  subroutine scale_weights(weight, space, weights)
+    type(fuge_solution), intent(in) :: weight
+    type(point_space), intent(in) :: space
+    type(adjoint_weights), intent(inout) :: weights
+    real(dp) :: largest
+
+    weights%given%force = 0.0_dp
+    weights%given%gap = 0.0_dp
+    weights%given%motion = 0.0_dp
+    if (allocated(weight%force)) weights%given%force = weight%force
+    if (allocated(weight%gap)) weights%given%gap = weight%gap
+    if (allocated(weight%motion)) weights%given%motion = weight%motion
+    largest = space%largest(max(maxval(abs(weights%given%force)), maxval(abs(weights%given%gap)), &
+                                maxval(abs(weights%given%motion))))
+    if (.not. largest > 0.0_dp) return
+    weights%power = exponent(largest)
+    weights%given%force = scale(weights%given%force, -weights%power)
+    weights%given%gap = scale(weights%given%gap, -weights%power)
+    weights%given%motion = scale(weights%given%motion, -weights%power)
+  end subroutine scale_weights
+
   !> (A + D) w at the points whose gap or force is fixed, for weights w of the open gaps.
-  subroutine displace_by_weights(operator, problem, solution, space, weights, info)
+  subroutine displace_by_weights(operator, problem, space, weights, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
-    type(fuge_solution), intent(in) :: solution
     type(point_space), intent(in) :: space
     type(adjoint_weights), intent(inout) :: weights
     type(fuge_info), intent(inout) :: info
@@ -201,15 +246,16 @@ contains
     select type (operator)
     class is (fuge_dense_operator)
       ! Of a symmetric matrix the columns of these points only, which are their rows.
-      call add_displacement_at(operator%alpha, operator%datum(), abs(weights%gap) > 0.0_dp, solution%state == FUGE_OPEN, &
-                               weights%gap, weights%displacement)
+      call add_displacement_at(operator%alpha, operator%datum(), abs(weights%gap) > 0.0_dp, &
+                               .not. (weights%held .or. weights%lower .or. weights%upper), weights%gap, &
+                               weights%displacement)
     class default
       call multiply(operator, weights%gap, weights%displacement, info)
     end select
     if (info%failed()) return
     constant = operator%datum()*space%total(sum(weights%gap))
-    if (has_free_datum(problem)) then
-      weights%left_out = constant
+    if (any(abs(weights%translation) > 0.0_dp)) then
+      weights%constant = constant
     else
       weights%displacement = weights%displacement + constant
     end if
@@ -242,39 +288,81 @@ contains
     type(point_space), intent(in) :: space
     type(fuge_gradients), intent(inout) :: gradients
 
-    gradients%gap = merge(-adjoint%force, weights%gap, is_at_stop(solution%state))
-    gradients%load = weights%left_out - adjoint%motion
-    if (any(prescribed_motions(problem))) then
-      ! Those of open gaps are in the weights of the motions already.
-      where (prescribed_motions(problem)) gradients%load = weights%motion &
-        - resultants_of(problem, merge(gradients%gap, 0.0_dp, is_at_stop(solution%state)), space)
-    end if
-    associate (by_limit => weights%force + weights%displacement - adjoint%gap)
-      if (allocated(gradients%limit)) gradients%limit = merge(by_limit, 0.0_dp, solution%state == FUGE_LIMITED_LOWER)
-      if (allocated(gradients%limit_upper)) gradients%limit_upper = merge(-by_limit, 0.0_dp, &
-                                                                          solution%state == FUGE_LIMITED_UPPER)
+    real(dp) :: of_held(size(solution%state))
+
+    of_held = merge(-adjoint%force, 0.0_dp, weights%held)
+    gradients%gap = of_held + weights%gap
+    gradients%load = weights%constant*weights%translation - adjoint%motion
+    ! Those of open gaps are in the weights of the motions already.
+    if (any(prescribed_motions(problem))) where (prescribed_motions(problem)) gradients%load = weights%motion &
+      - resultants_of(problem, of_held, space)
+    associate (by_limit => weights%given%force + weights%displacement - adjoint%gap)
+      if (allocated(gradients%limit)) gradients%limit = merge(by_limit, 0.0_dp, weights%lower)
+      if (allocated(gradients%limit_upper)) gradients%limit_upper = merge(-by_limit, 0.0_dp, weights%upper)
     end associate
   end subroutine set_gradients
 
-  !> The gradients that follow from those by gaps and loads, and points at a kink.
-  subroutine mark_and_warn(problem, solution, weight, space, gradients, info)
+  !> The gradients that follow from those by gaps and loads, and points at a kink. Error: FUGE_ERR_MEMORY.
+  subroutine set_law_gradients(operator, problem, solution, weights, space, gradients, info)
+    class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
-    type(fuge_solution), intent(in) :: solution, weight
+    type(fuge_solution), intent(in) :: solution
+    type(adjoint_weights), intent(in) :: weights
     type(point_space), intent(in) :: space
     type(fuge_gradients), intent(inout) :: gradients
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: displacement(:)
+    real(dp) :: constant
     integer :: stat
 
     allocate (displacement(size(solution%state)), stat=stat)
     call require_memory(stat, 'the displacements of', size(solution%state), 'points', info)
     call space%agree(info)
     if (info%failed()) return
-    call set_displacement(problem, solution, displacement)
-    call find_law_gradients(problem, solution, weight, displacement, space, gradients)
+    constant = operator%datum()*space%total(sum(solution%force))
+    call set_displacement(problem, solution, constant, weights%translation, displacement)
+    call find_law_gradients(problem, solution, weights%given, displacement, constant, weights%translation, space, &
+                            gradients)
     call mark_kinks(problem, solution, displacement, space, info, gradients%at_kink)
-    call warn_of_kinks(gradients%at_kink, space, info)
-  end subroutine mark_and_warn
+  end subroutine set_law_gradients
+
+  !> Multiply the gradients by 2**power, that of the weights. Error: FUGE_ERR_OVERFLOW.
+  subroutine restore_power(power, space, gradients, info)
+    integer, intent(in) :: power
+    type(point_space), intent(in) :: space
+    type(fuge_gradients), intent(inout) :: gradients
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: limit
+
+    limit = scale(huge(limit), -max(power, 0))
+    if (.not. space%everywhere(are_below(limit, gradients))) then
+      call report(info, FUGE_ERR_OVERFLOW, 'a gradient is out of the range of double precision: choose other units, ' &
+                  //'or divide the weights by a number')
+      return
+    end if
+    gradients%gap = scale(gradients%gap, power)
+    gradients%load = scale(gradients%load, power)
+    gradients%compliance = scale(gradients%compliance, power)
+    gradients%motion_stiffness = scale(gradients%motion_stiffness, power)
+    gradients%log_modulus = scale(gradients%log_modulus, power)
+    if (allocated(gradients%gap_upper)) gradients%gap_upper = scale(gradients%gap_upper, power)
+    if (allocated(gradients%limit)) gradients%limit = scale(gradients%limit, power)
+    if (allocated(gradients%limit_upper)) gradients%limit_upper = scale(gradients%limit_upper, power)
+  end subroutine restore_power
+
+  !> Are all gradients at most `limit`, and numbers?
+  pure function are_below(limit, gradients) result(below)
+    real(dp), intent(in) :: limit
+    type(fuge_gradients), intent(in) :: gradients
+    logical :: below
+
+    below = all(abs(gradients%gap) <= limit) .and. all(abs(gradients%load) <= limit) &
+            .and. all(abs(gradients%compliance) <= limit) .and. all(abs(gradients%motion_stiffness) <= limit) &
+            .and. abs(gradients%log_modulus) <= limit
+    if (allocated(gradients%gap_upper)) below = below .and. all(abs(gradients%gap_upper) <= limit)
+    if (allocated(gradients%limit)) below = below .and. all(abs(gradients%limit) <= limit)
+    if (allocated(gradients%limit_upper)) below = below .and. all(abs(gradients%limit_upper) <= limit)
+  end function are_below
 
   !> Move the arrays of `source` to `gradients`.
   pure subroutine move_gradients(source, gradients)

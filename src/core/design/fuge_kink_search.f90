@@ -33,9 +33,9 @@ contains
     logical, intent(out) :: at_kink(:)
     real(dp) :: little_gap(size(at_kink))
     real(dp) :: little_force
-    integer :: j, k
+    integer :: j
 
-    little_force = ERRORS*max(info%force_error, epsilon(1.0_dp))*space%largest(maxval(abs(solution%force)))
+    little_force = min(ERRORS*max(info%force_error, epsilon(1.0_dp)), 1.0_dp)*space%largest(maxval(abs(solution%force)))
     ! The residual is that of the gap equation, relative to its terms, and smaller than the error of the forces.
     little_gap = abs(problem%gap) + space%largest(maxval(abs(displacement)))
     do j = 1, size(solution%motion)
@@ -45,16 +45,26 @@ contains
         little_gap = little_gap + abs(solution%motion(j))
       end if
     end do
-    little_gap = ERRORS*max(info%residual, epsilon(1.0_dp))*little_gap
+    little_gap = min(ERRORS*max(info%residual, epsilon(1.0_dp)), 1.0_dp)*little_gap
     if (.not. (allocated(problem%gap_upper) .or. allocated(problem%excluded) .or. problem%has_limits())) then
       at_kink = merge(solution%gap <= little_gap, solution%force <= little_force, solution%state == FUGE_OPEN)
       return
     end if
-    do k = 1, size(at_kink)
-      at_kink(k) = is_on_border(problem%law(k), solution%state(k), solution%force(k), solution%gap(k), little_force, &
-                                little_gap(k))
-    end do
+    call mark_by_law(problem, solution%state, solution%force, solution%gap, little_force, little_gap, at_kink)
   end subroutine mark_kinks
+
+  !> Mark points with laws of their own, (n) each.
+  pure subroutine mark_by_law(problem, state, force, gap, little_force, little_gap, at_kink)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: state(:)
+    real(dp), intent(in) :: force(:), gap(:), little_force, little_gap(:)
+    logical, intent(out) :: at_kink(:)
+    integer :: k
+
+    do k = 1, size(at_kink)
+      at_kink(k) = is_on_border(problem%law(k), state(k), force(k), gap(k), little_force, little_gap(k))
+    end do
+  end subroutine mark_by_law
 
   !> Would a small change of `force` or `gap` bring the point to another state? Not where that changes nothing, because
   !> the point has no force in either.
@@ -101,8 +111,9 @@ contains
     do k = size(at_kink), 1, -1
       if (at_kink(k) .and. space%is_alone()) first = ', first point '//index_text(k)//','
     end do
-    call report(info, FUGE_WARN_KINK, text(number)//' point(s)'//first//' lie on the border between two states, as one ' &
-                //'that touches without force: the objective has a kink, and this gradient is that of one of its sides')
+    call report(info, FUGE_WARN_KINK, text(number)//' point(s)'//first//' lie on the border between two states, as ' &
+                //'one that touches without force: the objective has a kink, and this gradient is that of one of its ' &
+                //'sides')
   end subroutine warn_of_kinks
 
 end module fuge_kink_search

@@ -3,7 +3,7 @@
 !> With p the gradient by the gaps and r that by the resultants, a datum that changes the gap equation at point k by dg
 !> and a resultant by dw changes the objective by p dg + r dw.
 module fuge_law_gradients
-  use fuge_contact_states, only: FUGE_AT_UPPER_STOP
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER
   use fuge_gradients_type, only: fuge_gradients
   use fuge_kinds, only: dp
   use fuge_point_space, only: point_space
@@ -12,40 +12,71 @@ module fuge_law_gradients
   implicit none
   private
 
-  public :: find_law_gradients, set_displacement
+  public :: find_law_gradients, find_limited, set_displacement
 
 contains
 
   !> Fill the gradients by compliances, springs on motions, play and modulus from those by gap and load, which
   !> `gradients` has; its arrays have their sizes.
   !>
-  !> `displacement` (n) by the forces of `solution`; `weight` the partial derivatives of the objective.
-  subroutine find_law_gradients(problem, solution, weight, displacement, space, gradients)
+  !> `displacement` (n) by the forces of `solution`, less `constant`; `weight` the partial derivatives of the objective,
+  !> all of them; `translation` that of `free_translation`.
+  subroutine find_law_gradients(problem, solution, weight, displacement, constant, translation, space, gradients)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution, weight
-    real(dp), intent(in) :: displacement(:)
+    real(dp), intent(in) :: displacement(:), constant, translation(:)
     type(point_space), intent(in) :: space
     type(fuge_gradients), intent(inout) :: gradients
 
     gradients%compliance = solution%force*gradients%gap
     gradients%motion_stiffness = -solution%motion*gradients%load
     if (allocated(problem%prescribed)) where (problem%prescribed) gradients%motion_stiffness = 0.0_dp
-    gradients%log_modulus = -space%total(dot_product(gradients%gap, displacement))
-    if (.not. allocated(gradients%gap_upper)) return
-    gradients%gap_upper = merge(-gradients%gap, 0.0_dp, solution%state == FUGE_AT_UPPER_STOP)
-    ! There the gap is the play.
-    if (allocated(weight%gap)) where (solution%state == FUGE_AT_UPPER_STOP) gradients%gap_upper = gradients%gap_upper &
-      + weight%gap
+    ! The sum of the gradient by the gaps is the weight of the translation.
+    gradients%log_modulus = -space%total(dot_product(gradients%gap, displacement)) &
+                            - constant*dot_product(translation, weight%motion)
+    if (allocated(gradients%gap_upper)) gradients%gap_upper = merge(weight%gap - gradients%gap, 0.0_dp, &
+                                                                    is_at_play(problem, solution))
   end subroutine find_law_gradients
 
-  !> The displacements by the forces of `solution`, A f, (n), as the gaps show them: no product.
-  subroutine set_displacement(problem, solution, displacement)
+  !> Is the gap the play, (n)? A tied point that pulls would do so at an upper stop.
+  pure function is_at_play(problem, solution) result(at_play)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
+    logical :: at_play(size(solution%state))
+
+    at_play = solution%state == FUGE_AT_UPPER_STOP .or. (solution%state == FUGE_AT_LOWER_STOP &
+                                                         .and. solution%force < 0.0_dp)
+    if (allocated(problem%excluded)) at_play = at_play .and. .not. problem%excluded
+  end function is_at_play
+
+  !> At which points is the force a limit, that of the lower stop or that of the upper one, (n)? Where the limit is zero
+  !> the state may be open.
+  pure subroutine find_limited(problem, solution, lower, upper)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    logical, intent(out) :: lower(:), upper(:)
+
+    lower = solution%state == FUGE_LIMITED_LOWER
+    upper = solution%state == FUGE_LIMITED_UPPER
+    if (allocated(problem%limit)) lower = lower .or. (.not. problem%limit > 0.0_dp .and. solution%gap < 0.0_dp)
+    if (allocated(problem%limit_upper) .and. allocated(problem%gap_upper)) then
+      upper = upper .or. (.not. problem%limit_upper > 0.0_dp .and. solution%gap > problem%gap_upper)
+    end if
+    if (.not. allocated(problem%excluded)) return
+    lower = lower .and. .not. problem%excluded
+    upper = upper .and. .not. problem%excluded
+  end subroutine find_limited
+
+  !> The displacements by the forces of `solution` as the gaps show them, A f, less `constant`, (n): no product.
+  !> `translation` takes up the constant.
+  pure subroutine set_displacement(problem, solution, constant, translation, displacement)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: constant, translation(:)
     real(dp), intent(out) :: displacement(:)
 
     displacement = solution%gap - problem%gap
-    call add_rigid_displacement(problem, solution%motion, displacement)
+    call add_rigid_displacement(problem, solution%motion - constant*translation, displacement)
     if (allocated(problem%compliance)) displacement = displacement - problem%compliance*solution%force
   end subroutine set_displacement
 

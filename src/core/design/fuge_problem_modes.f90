@@ -6,7 +6,7 @@ module fuge_problem_modes
   implicit none
   private
 
-  public :: add_rigid_displacement, has_free_datum, prescribed_motions, resultants_of
+  public :: add_rigid_displacement, free_translation, prescribed_motions, resultant_terms, resultants_of
 
 contains
 
@@ -19,14 +19,33 @@ contains
     if (allocated(problem%prescribed)) prescribed = problem%prescribed
   end function prescribed_motions
 
-  !> Is there one translation, free and not on a spring? It takes up what is the same for the gaps of all points.
-  pure function has_free_datum(problem)
+  !> The motions, (m), that move all points by 1 in a translation that is free and not on a spring: it takes up what is
+  !> the same for the gaps of all points. Zero without such a mode.
+  function free_translation(problem, space) result(motion)
     type(fuge_problem), intent(in) :: problem
-    logical :: has_free_datum
+    type(point_space), intent(in) :: space
+    real(dp) :: motion(problem%mode_count())
+    real(dp) :: least, most
+    logical :: held(problem%mode_count())
+    integer :: j
 
-    has_free_datum = .not. (allocated(problem%modes) .or. any(prescribed_motions(problem)) &
-                            .or. problem%spring_count() > 0)
-  end function has_free_datum
+    held = problem%motions_on_springs() .or. prescribed_motions(problem)
+    motion = 0.0_dp
+    do j = 1, size(motion)
+      if (held(j)) cycle
+      least = 1.0_dp
+      most = 1.0_dp
+      if (allocated(problem%modes)) then
+        associate (mode => problem%modes(:, lbound(problem%modes, 2) + j - 1))
+          least = space%least(minval(mode))
+          most = space%largest(maxval(mode))
+        end associate
+      end if
+      if (most - least > 0.0_dp .or. .not. abs(most) > 0.0_dp) cycle
+      motion(j) = 1.0_dp/most
+      return
+    end do
+  end function free_translation
 
   !> displacement := displacement + R motion, (n), length.
   pure subroutine add_rigid_displacement(problem, motion, displacement)
@@ -58,5 +77,22 @@ contains
     end if
     call space%add(resultant)
   end function resultants_of
+
+  !> The size of the terms of `resultants_of`, (m).
+  function resultant_terms(problem, force, space) result(terms)
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: force(:)
+    type(point_space), intent(in) :: space
+    real(dp) :: terms(problem%mode_count())
+    integer :: j
+
+    terms = sum(abs(force))
+    if (allocated(problem%modes)) then
+      do j = 1, size(terms)
+        terms(j) = sum(abs(force*problem%modes(:, lbound(problem%modes, 2) + j - 1)))
+      end do
+    end if
+    call space%add(terms)
+  end function resultant_terms
 
 end module fuge_problem_modes

@@ -10,10 +10,10 @@ module fuge_wanted_pressure
   use fuge_operator_type, only: fuge_operator
   use fuge_point_law, only: point_law
   use fuge_point_space, only: point_space
-  use fuge_problem_modes, only: add_rigid_displacement, has_free_datum, resultants_of
+  use fuge_problem_modes, only: add_rigid_displacement, free_translation, resultants_of
   use fuge_problem_type, only: check_problem, copy_problem, fuge_problem
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_GAP, &
-    FUGE_ERR_NOT_FINITE, FUGE_ERR_SIZE, FUGE_WARN_UNREACHABLE
+    FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_UNREACHABLE
   implicit none
   private
 
@@ -33,15 +33,18 @@ contains
 
   !> The initial gaps for which the contact of `problem` has the forces `force`, by one product.
   !>
-  !> `operator` with n points. `problem` with the modes, prescribed motions and laws of the points; its gap and resultant
-  !> are what is looked for, and need not be allocated. `force` (n) wanted, force: pressures times the areas of the
-  !> points. `clearance` >= 0, length: the gap that is left under load where no force is wanted, at most the play; with
-  !> zero these points just touch. On return `wanted`: its gaps and resultants in the place of those of `problem` give
-  !> its forces. The datum of the gaps is free for one free translation alone: the smallest gap is zero then; otherwise
-  !> free motions are zero. FUGE_WARN_UNREACHABLE if a point cannot have its force: none that pulls at a lower stop, none
-  !> beyond a limit, none where excluded; the message has the number of such points, and the first. Errors, which leave
-  !> `wanted` untouched: those of the problem's checks, FUGE_ERR_CALL_ORDER for an operator that is not set,
-  !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_GAP for a negative clearance, FUGE_ERR_MEMORY, those of the product.
+  !> `operator` with n points. `problem` with the modes, prescribed motions and laws of the points; its gap and
+  !> resultant are what is looked for, and need not be allocated. `force` (n) wanted, force: pressures times the areas
+  !> of the points. `clearance` >= 0, length: the gap that is left under load where no force is wanted, at most the
+  !> play; with zero these points just touch. On return `wanted`: its gaps and resultants in the place of those of
+  !> `problem` give its forces, and the only ones where the problem has one solution: on a surface that is periodic in
+  !> all directions a prescribed approach does not say how much an even pressure is in whole contact. A free translation
+  !> takes up a constant; where it is the only motion the smallest gap is zero. Other free motions are zero.
+  !> FUGE_WARN_UNREACHABLE if a point cannot have its force: none that pulls at a lower stop, none beyond a limit, none
+  !> where excluded; the message has the number of such points, and the first. Errors, which leave `wanted` untouched:
+  !> those of the problem's checks, FUGE_ERR_CALL_ORDER for an operator that is not set, FUGE_ERR_SIZE,
+  !> FUGE_ERR_NOT_FINITE, FUGE_ERR_GAP for a negative clearance, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, those of the
+  !> product.
   subroutine fuge_gap_for_pressure(operator, problem, force, clearance, wanted, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -68,6 +71,11 @@ contains
     if (info%failed()) return
     call find_gaps(operator, laws, clearance, space, new)
     new%resultant = resultants_of(laws, new%force, space)
+    if (.not. space%everywhere(all(abs(new%gap) <= huge(1.0_dp)) .and. all(abs(new%resultant) <= huge(1.0_dp)))) then
+      call report(info, FUGE_ERR_OVERFLOW, 'the gaps or the resultants are out of the range of double precision: ' &
+                  //'choose other units')
+      return
+    end if
     call move_alloc(new%gap, wanted%gap)
     call move_alloc(new%force, wanted%force)
     call move_alloc(new%resultant, wanted%resultant)
@@ -152,13 +160,13 @@ contains
     real(dp), intent(in) :: clearance
     type(point_space), intent(in) :: space
     type(fuge_wanted_contact), intent(inout) :: wanted
-    real(dp) :: datum
+    real(dp) :: datum, translation(problem%mode_count())
     type(point_law) :: law
     integer :: k
 
     datum = operator%datum()*space%total(sum(wanted%force))
-    ! One free translation takes up any constant.
-    if (has_free_datum(problem)) datum = 0.0_dp
+    translation = free_translation(problem, space)
+    if (any(abs(translation) > 0.0_dp)) datum = 0.0_dp
     if (allocated(problem%compliance)) wanted%gap = wanted%gap + problem%compliance*wanted%force
     wanted%gap = -(wanted%gap + datum)
     call add_rigid_displacement(problem, problem%prescribed_motion(), wanted%gap)
@@ -171,7 +179,8 @@ contains
         wanted%gap(k) = wanted%gap(k) + min(clearance, law%play)
       end if
     end do
-    if (has_free_datum(problem)) wanted%gap = wanted%gap - space%least(minval(wanted%gap))
+    if (size(translation) == 1 .and. any(abs(translation) > 0.0_dp)) wanted%gap = wanted%gap &
+      - space%least(minval(wanted%gap))
   end subroutine find_gaps
 
 end module fuge_wanted_pressure

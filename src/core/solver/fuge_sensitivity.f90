@@ -27,12 +27,12 @@ contains
 
   !> Changes of forces, gaps and motions at a fixed contact set, by solves with its factor.
   !>
-  !> `operator` that of the solve; `factor` of the set in `state` (n); `gap_change` (n) length, `load_change` (m) of
-  !> the resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`. The
-  !> arguments are nine, because changes of open gaps may be left out: `wanted` (n) says where they are needed, which is
-  !> everywhere without it. Errors, `change` untouched: FUGE_ERR_NO_EQUILIBRIUM if the contact set does not resist a mode
-  !> that the changes load, FUGE_ERR_CALL_ORDER if the factor does not belong to the matrix, which has changed in place,
-  !> FUGE_ERR_MEMORY.
+  !> `operator` that of the solve; `factor` of the set in `state` (n); `gap_change` (n) length, `load_change` (m) of the
+  !> resultants, of prescribed motions the change of the motion; `change` in the order of `fuge_solution`. The arguments
+  !> are nine, because changes of open gaps may be left out: `wanted` (n) says where they are needed, which is
+  !> everywhere without it. Errors, `change` untouched: FUGE_ERR_NO_EQUILIBRIUM if the contact set does not resist a
+  !> mode that the changes load, FUGE_ERR_CALL_ORDER if the factor does not belong to the matrix, which has changed in
+  !> place, FUGE_ERR_MEMORY.
   subroutine find_derivative(canonical, operator, factor, state, gap_change, load_change, change, info, wanted)
     type(canonical_problem), intent(in) :: canonical
     class(fuge_dense_operator), intent(in) :: operator
@@ -76,10 +76,15 @@ contains
       return
     end if
     where (is_at_stop(state)) gap = 0.0_dp
-    if (present(wanted)) where (.not. wanted) gap = 0.0_dp
     if (canonical%has_translation) free_motion(1) = free_motion(1) + datum*load(1)
     call canonical%to_given_modes(load_change, free_motion, motion)
-    if (.not. present(wanted)) call canonical%set_excluded_gaps(operator%alpha, gap_change, force, motion, gap)
+    if (present(wanted)) then
+      if (any(wanted .and. canonical%excluded)) call canonical%set_excluded_gaps(operator%alpha, gap_change, force, &
+                                                                                   motion, gap)
+      where (.not. wanted) gap = 0.0_dp
+    else
+      call canonical%set_excluded_gaps(operator%alpha, gap_change, force, motion, gap)
+    end if
     call move_alloc(force, change%force)
     call move_alloc(gap, change%gap)
     call move_alloc(motion, change%motion)
