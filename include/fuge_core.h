@@ -640,15 +640,16 @@ int fuge_prove(const fuge_solver *s, double *force_bound, double *gap_bound,
  * that touches without force, and the gradient is that of one side of a kink.  After the iteration
  * products on the contact set, and one more for weights of gaps.  Errors as for
  * fuge_get_derivatives; FUGE_ERR_NO_EQUILIBRIUM if J depends on a motion that the contact does not
- * resist; those of the product. */
+ * resist; FUGE_ERR_OVERFLOW; those of the product. */
 int fuge_get_adjoint(const fuge_solver *s, const double *force_weight, const double *gap_weight,
                      const double *motion_weight, double *gap_gradient, double *load_gradient);
 
 /* As fuge_get_adjoint, with the gradients by all other data; each of them may be NULL.
  *   compliance        out  n, by the compliances; where there is none, by the first bit of one
  *   motion_stiffness  out  m, by the springs on the motions; 0 where a motion is prescribed
- *   gap_upper         out  n, by the plays
- *   limit             out  n, by the limits of the forces
+ *   gap_upper         out  n, by the plays; 0 but at the upper stop, and where a tied point pulls
+ *   limit             out  n, by the limits of the forces; 0 but where a force has reached its
+ *                          limit, by the first bit of one that is 0
  *   limit_upper       out  n, by the limits at the upper stops
  *   log_modulus       out  1, e_star*dJ/de_star: by the logarithm of the modulus to which all
  *                          displacements by contact forces are inversely proportional; unit of J
@@ -664,14 +665,14 @@ int fuge_get_gradients(const fuge_solver *s, const double *force_weight, const d
  *   force      n, wanted; force: pressures times the areas of the points
  *   clearance  >= 0, the gap that is left under load where no force is wanted; length; with 0
  *              these points just touch
- *   gap        out  n, for fuge_set_gap; length.  With one free translation the smallest is 0,
- *                   otherwise free motions will be 0
+ *   gap        out  n, for fuge_set_gap; length.  A free translation takes up a constant: where it
+ *                   is the only motion the smallest gap is 0.  Other free motions will be 0
  *   reached    out  n, forces that these gaps give; NULL if not needed
  *   resultant  out  m, their resultants, the loads that belong to them; NULL if not needed
  * FUGE_WARN_UNREACHABLE if a point cannot have its force: none that pulls at a lower stop, none
  * beyond a limit, none where excluded.  Its nearest one is taken then; the message has the number
  * of such points and the first.  FUGE_ERR_POINTER, FUGE_ERR_NOT_FINITE, FUGE_ERR_GAP for a negative
- * clearance, FUGE_ERR_MEMORY, those of the product. */
+ * clearance, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, those of the product. */
 int fuge_gap_for_pressure(const fuge_solver *s, const double *force, double clearance, double *gap,
                           double *reached, double *resultant);
 

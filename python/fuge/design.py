@@ -27,9 +27,9 @@ class Gradients:
     motion_stiffness : ndarray, shape (m,)
         By the stiffnesses of springs on the motions; 0 where prescribed.
     gap_upper : ndarray, shape of the gaps
-        By the play; not 0 at the upper stop only.
+        By the play; not 0 at the upper stop, and where a tied point pulls.
     limit, limit_upper : ndarray, shape of the gaps
-        By the limits of the forces; not 0 where a force has reached its limit only.
+        By the limits of the forces; not 0 where a force has reached its limit only, by the first bit of a limit of 0.
     log_modulus : float
         ``e_star * dJ/de_star``, by the logarithm of the modulus to which all displacements by contact forces are
         inversely proportional; unit of J.

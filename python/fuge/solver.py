@@ -499,8 +499,9 @@ class Solver(Owner):
         """The initial gaps that give a wanted pressure, or wanted forces, by one product.
 
         Motions and laws of the solver count, its gaps and resultants do not, and stay: pass what is found to
-        :meth:`set_gap` and :meth:`set_load`. With one free translation the smallest gap is 0, otherwise free motions
-        will be 0.
+        :meth:`set_gap` and :meth:`set_load`. A free translation takes up a constant: where it is the only motion the
+        smallest gap is 0. Other free motions will be 0. On a surface that is periodic in all directions a prescribed
+        approach does not say how large an even pressure is in whole contact: prescribe the load there.
 
         Parameters
         ----------
