@@ -57,7 +57,7 @@ contains
     integer :: stat
 
     space = operator%ranks()
-    call check_wishes(operator, force, clearance, info)
+    call check_wishes(operator, force, clearance, space, info)
     if (.not. info%failed()) call set_laws(problem, operator%points(), laws, info)
     if (.not. info%failed()) call check_problem(laws, operator%points(), info)
     if (.not. info%failed()) then
@@ -81,12 +81,14 @@ contains
     call move_alloc(new%resultant, wanted%resultant)
   end subroutine fuge_gap_for_pressure
 
-  subroutine check_wishes(operator, force, clearance, info)
+  subroutine check_wishes(operator, force, clearance, space, info)
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: force(:), clearance
+    type(point_space), intent(in) :: space
     type(fuge_info), intent(inout) :: info
 
-    if (operator%points() < 1) then
+    ! A rank may have no points of those that it shares.
+    if (space%total_count(operator%points()) < 1) then
       call report(info, FUGE_ERR_CALL_ORDER, 'the operator is not set: set it first')
     else if (size(force) /= operator%points()) then
       call report(info, FUGE_ERR_SIZE, 'force has '//text(size(force))//' value(s): it needs '//text(operator%points()))
