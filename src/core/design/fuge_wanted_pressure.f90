@@ -3,6 +3,7 @@
 !> The forces say how far the points are displaced, and the gap equation which gaps they close: one product. So any
 !> forces that the law of the points allows can be had.
 module fuge_wanted_pressure
+  use fuge_constants, only: LARGEST_EXPONENT
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
@@ -98,6 +99,9 @@ contains
       call report(info, FUGE_ERR_GAP, 'clearance = '//text(clearance)//' is negative: bodies cannot overlap')
     else
       call check_finite(force, 'force', info)
+      if (info%failed() .or. size(force) < 1) return
+      if (exponent(maxval(abs(force))) > LARGEST_EXPONENT) call report(info, FUGE_ERR_OVERFLOW, 'force reaches 2**' &
+        //text(exponent(maxval(abs(force))))//': choose units in which it is smaller')
     end if
   end subroutine check_wishes
 
