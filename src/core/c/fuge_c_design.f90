@@ -5,12 +5,13 @@ module fuge_c_design
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_ptr, c_associated, c_f_pointer
   use fuge_adjoint_solution, only: fuge_solve_adjoint
   use fuge_c_arrays, only: find_array, give
+  use fuge_c_results, only: require_solution
   use fuge_c_solver, only: find_solver, solver_handle
   use fuge_c_types, only: report_to_handle, require_pointer
   use fuge_gradients_type, only: fuge_gradients
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_solution
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER
+  use fuge_status, only: fuge_info, require_memory
   use fuge_wanted_pressure, only: fuge_gap_for_pressure, fuge_wanted_contact
   implicit none
   private
@@ -67,12 +68,8 @@ contains
     type(fuge_solution) :: weight
 
     call find_solver(solver, handle, info)
+    if (.not. info%failed()) call require_solution(handle, info)
     if (info%failed()) return
-    if (.not. handle%solved) then
-      call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution of the present problem: call fuge_solve and look ' &
-                  //'at its status')
-      return
-    end if
     call copy_values(force_weight, size(handle%solution%force), 'force_weight', weight%force, info)
     call copy_values(gap_weight, size(handle%solution%force), 'gap_weight', weight%gap, info)
     call copy_values(motion_weight, size(handle%solution%motion), 'motion_weight', weight%motion, info)

@@ -19,6 +19,8 @@ module fuge_c_results
   implicit none
   private
 
+  public :: require_solution
+
 contains
 
   function c_get_force(solver, force) bind(c, name='fuge_get_force') result(status)
