@@ -261,7 +261,7 @@ contains
     if (allocated(self%prescribed)) where (self%prescribed) values = 0.0_dp
   end function resultants
 
-  !> Copy `problem`. Error: FUGE_ERR_MEMORY.
+  !> Copy `problem`, to arrays that begin with 1. Error: FUGE_ERR_MEMORY.
   pure subroutine copy_problem(problem, copy, info)
     type(fuge_problem), intent(in) :: problem
     type(fuge_problem), intent(out) :: copy
@@ -272,7 +272,9 @@ contains
     call copy_values(problem%gap, copy%gap, stat)
     call copy_values(problem%gap_upper, copy%gap_upper, stat)
     call copy_marks(problem%excluded, copy%excluded, stat)
-    if (allocated(problem%modes) .and. stat == 0) allocate (copy%modes, source=problem%modes, stat=stat)
+    if (allocated(problem%modes) .and. stat == 0) then
+      allocate (copy%modes(size(problem%modes, 1), size(problem%modes, 2)), source=problem%modes, stat=stat)
+    end if
     call copy_values(problem%resultant, copy%resultant, stat)
     call copy_marks(problem%prescribed, copy%prescribed, stat)
     call copy_values(problem%motion, copy%motion, stat)
@@ -289,7 +291,7 @@ contains
     real(dp), intent(inout), allocatable :: copy(:)
     integer, intent(inout) :: stat
 
-    if (allocated(values) .and. stat == 0) allocate (copy, source=values, stat=stat)
+    if (allocated(values) .and. stat == 0) allocate (copy(size(values)), source=values, stat=stat)
   end subroutine copy_values
 
   pure subroutine copy_marks(marks, copy, stat)
@@ -297,7 +299,7 @@ contains
     logical, intent(inout), allocatable :: copy(:)
     integer, intent(inout) :: stat
 
-    if (allocated(marks) .and. stat == 0) allocate (copy, source=marks, stat=stat)
+    if (allocated(marks) .and. stat == 0) allocate (copy(size(marks)), source=marks, stat=stat)
   end subroutine copy_marks
 
   !> The plain problem: `gap` (n), length, and one `load`, force. Error: FUGE_ERR_MEMORY.

@@ -13,7 +13,8 @@ module fuge_solver_type
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_ITERATIVE
-  use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, move_solution, set_problem
+  use fuge_problem_bounds, only: begins_with_one
+  use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, copy_problem, move_solution, set_problem
   use fuge_product_engine, only: product_engine
   use fuge_point_space, only: point_space
   use fuge_shared_problem, only: check_shared_problem, differ
@@ -78,10 +79,10 @@ contains
     type(fuge_options), intent(in), optional :: options
     class(fuge_monitor), intent(inout), optional, target :: monitor
     type(fuge_options) :: chosen
-    type(fuge_solution) :: candidate
+    type(fuge_problem) :: copy
     type(monitor_relay) :: relay
     type(point_space) :: space
-    type(thread_team) :: team
+    logical :: usual
 
     if (present(options)) chosen = options
     if (present(monitor)) relay%listener => monitor
@@ -89,9 +90,31 @@ contains
     self%has_solution = .false.
     self%last_report = fuge_info()
     space = operator%ranks()
+    usual = begins_with_one(problem)
     call check_options(chosen, info)
+    if (.not. (usual .or. info%failed())) call copy_problem(problem, copy, info)
     call space%agree(info)
     if (info%failed()) return
+    if (usual) then
+      call solve_from_one(self, operator, problem, chosen, space, relay, solution, info)
+    else
+      call solve_from_one(self, operator, copy, chosen, space, relay, solution, info)
+    end if
+  end subroutine solve
+
+  !> Solve a problem whose arrays begin with 1, with options that hold.
+  subroutine solve_from_one(self, operator, problem, chosen, space, relay, solution, info)
+    class(fuge_solver), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_options), intent(in) :: chosen
+    type(point_space), intent(in) :: space
+    type(monitor_relay), intent(inout) :: relay
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    type(fuge_solution) :: candidate
+    type(thread_team) :: team
+
     if (space%total_count(operator%points()) < 1) then
       call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before the solve')
       return
@@ -129,7 +152,7 @@ contains
       if (.not. self%solved_by_products) call self%by_matrix%take_arrays(solution)
       call move_solution(candidate, solution)
     end if
-  end subroutine solve
+  end subroutine solve_from_one
 
   !> Allocate the engine unless it is already. Error: FUGE_ERR_MEMORY.
   subroutine require_product_engine(engine, space, info)

@@ -2,7 +2,7 @@
 module fuge_unbalanced_motion
   use fuge_canonical_problem, only: canonical_problem, make_canonical
   use fuge_kinds, only: dp
-  use fuge_problem_type, only: check_problem, fuge_problem
+  use fuge_problem_type, only: check_problem, copy_problem, fuge_problem
   use fuge_status, only: fuge_info, require_memory, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
   private
@@ -32,14 +32,15 @@ contains
     call require_memory(stat, 'a motion', info)
     if (stat /= 0) return
     found = 0.0_dp
+    call copy_problem(problem, free, info)
+    if (info%failed()) return
     ! Springs balance any resultant of their motions.
-    free = problem
     if (allocated(free%motion_stiffness)) then
-      free%motion = problem%prescribed_motion()
+      free%motion = free%prescribed_motion()
       if (allocated(free%prescribed)) then
-        free%prescribed = free%prescribed .or. problem%motions_on_springs()
+        free%prescribed = free%prescribed .or. free%motions_on_springs()
       else
-        free%prescribed = problem%motions_on_springs()
+        free%prescribed = free%motions_on_springs()
       end if
       deallocate (free%motion_stiffness)
     end if

@@ -18,7 +18,8 @@ module fuge_contact_path
   use fuge_path_certificate, only: path_certificate
   use fuge_path_position, only: load_line, path_position, position_at
   use fuge_path_type, only: fuge_path, move_path, trim_path
-  use fuge_problem_type, only: fuge_problem, check_problem, check_load, set_problem
+  use fuge_problem_bounds, only: begins_with_one
+  use fuge_problem_type, only: fuge_problem, check_problem, check_load, copy_problem, set_problem
   use fuge_spring_matrix, only: extend_problem, spring_matrix
   use fuge_status, only: composed_message, fuge_info, fuge_status_text, report, require_memory, FUGE_DONE, &
     FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED, FUGE_WARN_RESIDUAL
@@ -82,20 +83,37 @@ contains
     real(dp), intent(in) :: finish(:)
     type(fuge_path), intent(inout) :: path
     type(fuge_info), intent(out) :: info
+    type(fuge_problem) :: copy
 
     select type (operator)
     class is (fuge_dense_operator)
       call check_start(operator, problem, info)
       if (info%failed()) return
-      if (problem%has_springs()) then
-        call follow_with_springs(operator, problem, finish, path, info)
+      if (begins_with_one(problem)) then
+        call follow_from_one(operator, problem, finish, path, info)
       else
-        call follow_to_finish(operator, problem, operator, problem, finish, path, info)
+        call copy_problem(problem, copy, info)
+        if (.not. info%failed()) call follow_from_one(operator, copy, finish, path, info)
       end if
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'the path needs the coefficients of a dense operator')
     end select
   end subroutine fuge_follow_path
+
+  !> Follow a problem whose arrays begin with 1.
+  subroutine follow_from_one(operator, problem, finish, path, info)
+    type(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: finish(:)
+    type(fuge_path), intent(inout) :: path
+    type(fuge_info), intent(inout) :: info
+
+    if (problem%has_springs()) then
+      call follow_with_springs(operator, problem, finish, path, info)
+    else
+      call follow_to_finish(operator, problem, operator, problem, finish, path, info)
+    end if
+  end subroutine follow_from_one
 
   !> Compliances and springs on motions become parts of a matrix, and the path is that of the problem without them.
   subroutine follow_with_springs(operator, problem, finish, path, info)
