@@ -9,50 +9,23 @@
 !> objective in the places of the changes of gaps and loads, and every engine that has derivatives has gradients
 !> (doc/theory.md).
 module fuge_adjoint_solution
-  use fuge_contact_states, only: is_at_stop
-  use fuge_displacements, only: add_displacement_at
+  use fuge_adjoint_weights, only: adjoint_weights, check_weights, set_weights
   use fuge_gradients_type, only: fuge_gradients
-  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_kink_search, only: mark_kinks, warn_of_kinks
-  use fuge_law_gradients, only: find_law_gradients, find_limited, set_displacement
-  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_law_gradients, only: find_law_gradients, set_displacement
   use fuge_number_text, only: text
-  use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
-  use fuge_problem_modes, only: free_translation, prescribed_motions, resultant_terms, resultants_of
+  use fuge_problem_modes, only: prescribed_motions, resultants_of
   use fuge_problem_type, only: check_problem, fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_NO_EQUILIBRIUM, &
-    FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
-  use fuge_shared_problem, only: differ
-  use fuge_threads, only: thread_team
+    FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
   implicit none
   private
 
   public :: fuge_solve_adjoint
-
-  !> The sum of weights that cancel may be rounded by this many units in the last place of its terms.
-  real(dp), parameter :: ROUNDINGS = 64.0_dp
-
-  !> Weights of the objective on a contact set, and what follows from them.
-  type :: adjoint_weights
-    !> Partial derivatives by all forces, gaps and motions, zero where there are none, divided by 2**power so that the
-    !> largest is about 1.
-    type(fuge_solution) :: given
-    integer :: power = 0
-    !> Those by the gaps that are free, (n), and by the motions with which these move, (m).
-    real(dp), allocatable :: gap(:), motion(:)
-    !> Displacements by the weights of the gaps as forces, (A + D) gap, (n), where a gap or a force is fixed by its
-    !> point, less a constant that a translation takes up; length times the unit of the weights.
-    real(dp), allocatable :: displacement(:)
-    real(dp) :: constant = 0.0_dp
-    !> That translation, (m); zero if there is none.
-    real(dp), allocatable :: translation(:)
-    !> Is the gap given by a stop, or the force by the limit of the lower or the upper stop, (n)?
-    logical, allocatable :: held(:), lower(:), upper(:)
-  end type adjoint_weights
 
 contains
 
@@ -103,7 +76,7 @@ contains
     if (info%failed()) return
     call set_gradients(problem, solution, weights, adjoint, space, new)
     call set_law_gradients(operator, problem, solution, weights, space, new, info)
-    if (.not. info%failed()) call restore_power(weights%power, space, new, info)
+    if (.not. info%failed()) call multiply_gradients(weights%factor, space, new, info)
     if (info%failed()) return
     call warn_of_kinks(new%at_kink, space, info)
     call move_gradients(new, gradients)
@@ -135,132 +108,6 @@ contains
       call check_problem(problem, operator%points(), info)
     end if
   end subroutine check_solution
-
-  !> Refuse weights that do not fit `n` points and `m` motions.
-  subroutine check_weights(weight, n, m, info)
-    type(fuge_solution), intent(in) :: weight
-    integer, intent(in) :: n, m
-    type(fuge_info), intent(inout) :: info
-
-    call check_values(weight%force, n, 'force_weight', info)
-    if (.not. info%failed()) call check_values(weight%gap, n, 'gap_weight', info)
-    if (.not. info%failed()) call check_values(weight%motion, m, 'motion_weight', info)
-  end subroutine check_weights
-
-  pure subroutine check_values(values, expected, name, info)
-    real(dp), intent(in), allocatable :: values(:)
-    integer, intent(in) :: expected
-    character(len=*), intent(in) :: name
-    type(fuge_info), intent(inout) :: info
-
-    if (.not. allocated(values)) return
-    if (size(values) /= expected) then
-      call report(info, FUGE_ERR_SIZE, name//' has '//text(size(values))//' value(s): it needs '//text(expected))
-    else
-      call check_finite(values, name, info)
-    end if
-  end subroutine check_values
-
-  !> The weights on what is free on the contact set: gaps of open points are those by forces and motions, so their
-  !> weights are weights on these. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OPTION, those of the product.
-  subroutine set_weights(operator, problem, solution, weight, threads, space, weights, info)
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_solution), intent(in) :: solution, weight
-    integer, intent(in) :: threads
-    type(point_space), intent(in) :: space
-    type(adjoint_weights), intent(inout) :: weights
-    type(fuge_info), intent(inout) :: info
-    type(thread_team) :: team
-
-    call allocate_weights(size(solution%state), problem%mode_count(), weights, info)
-    call space%agree(info)
-    if (info%failed()) return
-    call scale_weights(weight, space, weights)
-    if (differ(weights%given%motion, space)) then
-      call report(info, FUGE_ERR_OPTION, 'motion_weight differs between the ranks')
-      return
-    end if
-    weights%held = is_at_stop(solution%state)
-    call find_limited(problem, solution, weights%lower, weights%upper)
-    weights%translation = free_translation(problem, space)
-    weights%gap = merge(0.0_dp, weights%given%gap, weights%held)
-    weights%motion = weights%given%motion
-    weights%displacement = 0.0_dp
-    if (.not. space%anywhere(any(abs(weights%gap) > 0.0_dp))) return
-    call team%begin(threads)
-    call displace_by_weights(operator, problem, space, weights, info)
-    call team%end()
-    if (info%failed()) return
-    weights%motion = weights%given%motion - resultants_of(problem, weights%gap, space)
-    ! A motion whose weights cancel is not in the objective.
-    where (abs(weights%motion) <= ROUNDINGS*epsilon(1.0_dp)*(abs(weights%given%motion) &
-                                                             + resultant_terms(problem, weights%gap, space)))
-      weights%motion = 0.0_dp
-    end where
-  end subroutine set_weights
-
-  subroutine allocate_weights(n, m, weights, info)
-    integer, intent(in) :: n, m
-    type(adjoint_weights), intent(inout) :: weights
-    type(fuge_info), intent(inout) :: info
-    integer :: stat
-
-    allocate (weights%given%force(n), weights%given%gap(n), weights%given%motion(m), weights%gap(n), &
-              weights%motion(m), weights%displacement(n), weights%translation(m), weights%held(n), weights%lower(n), &
-              weights%upper(n), stat=stat)
-    call require_memory(stat, 'the weights of', n, 'points', info)
-  end subroutine allocate_weights
-
-  !> The weights with a largest of about 1: the gradient is linear in them, and their range is left to the data.
-  subroutine scale_weights(weight, space, weights)
-    type(fuge_solution), intent(in) :: weight
-    type(point_space), intent(in) :: space
-    type(adjoint_weights), intent(inout) :: weights
-    real(dp) :: largest
-
-    weights%given%force = 0.0_dp
-    weights%given%gap = 0.0_dp
-    weights%given%motion = 0.0_dp
-    if (allocated(weight%force)) weights%given%force = weight%force
-    if (allocated(weight%gap)) weights%given%gap = weight%gap
-    if (allocated(weight%motion)) weights%given%motion = weight%motion
-    largest = space%largest(max(maxval(abs(weights%given%force)), maxval(abs(weights%given%gap)), &
-                                maxval(abs(weights%given%motion))))
-    if (.not. largest > 0.0_dp) return
-    weights%power = exponent(largest)
-    weights%given%force = scale(weights%given%force, -weights%power)
-    weights%given%gap = scale(weights%given%gap, -weights%power)
-    weights%given%motion = scale(weights%given%motion, -weights%power)
-  end subroutine scale_weights
-
-  !> (A + D) w at the points whose gap or force is fixed, for weights w of the open gaps.
-  subroutine displace_by_weights(operator, problem, space, weights, info)
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(point_space), intent(in) :: space
-    type(adjoint_weights), intent(inout) :: weights
-    type(fuge_info), intent(inout) :: info
-    real(dp) :: constant
-
-    select type (operator)
-    class is (fuge_dense_operator)
-      ! Of a symmetric matrix the columns of these points only, which are their rows.
-      call add_displacement_at(operator%alpha, operator%datum(), abs(weights%gap) > 0.0_dp, &
-                               .not. (weights%held .or. weights%lower .or. weights%upper), weights%gap, &
-                               weights%displacement)
-    class default
-      call multiply(operator, weights%gap, weights%displacement, info)
-    end select
-    if (info%failed()) return
-    constant = operator%datum()*space%total(sum(weights%gap))
-    if (any(abs(weights%translation) > 0.0_dp)) then
-      weights%constant = constant
-    else
-      weights%displacement = weights%displacement + constant
-    end if
-    if (allocated(problem%compliance)) weights%displacement = weights%displacement + problem%compliance*weights%gap
-  end subroutine displace_by_weights
 
   !> Arrays for the gradients of `problem`. Error: FUGE_ERR_MEMORY.
   subroutine allocate_gradients(problem, solution, gradients, info)
@@ -326,29 +173,29 @@ contains
     call mark_kinks(problem, solution, displacement, space, info, gradients%at_kink)
   end subroutine set_law_gradients
 
-  !> Multiply the gradients by 2**power, that of the weights. Error: FUGE_ERR_OVERFLOW.
-  subroutine restore_power(power, space, gradients, info)
-    integer, intent(in) :: power
+  !> Multiply the gradients by factor**2. Error: FUGE_ERR_OVERFLOW.
+  subroutine multiply_gradients(factor, space, gradients, info)
+    real(dp), intent(in) :: factor
     type(point_space), intent(in) :: space
     type(fuge_gradients), intent(inout) :: gradients
     type(fuge_info), intent(inout) :: info
     real(dp) :: limit
 
-    limit = scale(huge(limit), -max(power, 0))
+    limit = huge(limit)/max(factor, 1.0_dp)/max(factor, 1.0_dp)
     if (.not. space%everywhere(are_below(limit, gradients))) then
       call report(info, FUGE_ERR_OVERFLOW, 'a gradient is out of the range of double precision: choose other units, ' &
                   //'or divide the weights by a number')
       return
     end if
-    gradients%gap = scale(gradients%gap, power)
-    gradients%load = scale(gradients%load, power)
-    gradients%compliance = scale(gradients%compliance, power)
-    gradients%motion_stiffness = scale(gradients%motion_stiffness, power)
-    gradients%log_modulus = scale(gradients%log_modulus, power)
-    if (allocated(gradients%gap_upper)) gradients%gap_upper = scale(gradients%gap_upper, power)
-    if (allocated(gradients%limit)) gradients%limit = scale(gradients%limit, power)
-    if (allocated(gradients%limit_upper)) gradients%limit_upper = scale(gradients%limit_upper, power)
-  end subroutine restore_power
+    gradients%gap = gradients%gap*factor*factor
+    gradients%load = gradients%load*factor*factor
+    gradients%compliance = gradients%compliance*factor*factor
+    gradients%motion_stiffness = gradients%motion_stiffness*factor*factor
+    gradients%log_modulus = gradients%log_modulus*factor*factor
+    if (allocated(gradients%gap_upper)) gradients%gap_upper = gradients%gap_upper*factor*factor
+    if (allocated(gradients%limit)) gradients%limit = gradients%limit*factor*factor
+    if (allocated(gradients%limit_upper)) gradients%limit_upper = gradients%limit_upper*factor*factor
+  end subroutine multiply_gradients
 
   !> Are all gradients at most `limit`, and numbers?
   pure function are_below(limit, gradients) result(below)

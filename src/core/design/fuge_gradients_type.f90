@@ -18,8 +18,8 @@ module fuge_gradients_type
     real(dp), allocatable :: motion_stiffness(:)
     !> By the play, (n); not zero at the upper stop, and where a tied point pulls. Allocated if the problem has a play.
     real(dp), allocatable :: gap_upper(:)
-    !> By the limits of the forces, (n); not zero where a force has reached its limit only, by the first bit of one where
-    !> it is zero. Allocated if the problem has them.
+    !> By the limits of the forces, (n); not zero where a force has reached its limit only, by the first bit of one
+    !> where it is zero. Allocated if the problem has them.
     real(dp), allocatable :: limit(:), limit_upper(:)
     !> e_star*dJ/de_star, in the unit of J: by the logarithm of the modulus to which all displacements by contact forces
     !> are inversely proportional.

@@ -387,16 +387,13 @@ contains
     type(fuge_info), intent(inout) :: info
     logical, intent(in), optional :: wanted(:)
     type(fuge_dense_operator) :: with_springs
+    logical, allocatable :: wanted_too(:)
 
     call springs%as_operator(with_springs)
-    if (present(wanted)) then
-      call find_derivative(self%canonical, with_springs, self%factor, self%state, &
-                           [gap_change, spread(0.0_dp, 1, self%spring_points)], load_change, change, info, &
-                           [wanted, spread(.false., 1, self%spring_points)])
-    else
-      call find_derivative(self%canonical, with_springs, self%factor, self%state, &
-                           [gap_change, spread(0.0_dp, 1, self%spring_points)], load_change, change, info)
-    end if
+    ! Not allocated it counts as absent.
+    if (present(wanted)) wanted_too = [wanted, spread(.false., 1, self%spring_points)]
+    call find_derivative(self%canonical, with_springs, self%factor, self%state, &
+                         [gap_change, spread(0.0_dp, 1, self%spring_points)], load_change, change, info, wanted_too)
     if (.not. info%failed()) call strip_solution(size(gap_change), change, info)
   end subroutine derivative_with_springs
 

@@ -44,38 +44,40 @@ contains
     logical, intent(in), optional :: wanted(:)
     real(dp), allocatable :: force(:), gap(:), motion(:), reduced_gap(:), load(:), unresisted(:, :)
     real(dp) :: datum, free_motion(size(canonical%load))
+    logical, target :: contact(size(state)), passed_over(size(state))
     logical :: fits
     integer :: stat
 
     allocate (force(size(state)), gap(size(state)), motion(size(load_change)), stat=stat)
     call require_memory(stat, 'the derivatives of', size(state), 'points', info)
     if (stat /= 0) return
+    contact = is_at_stop(state)
     datum = merge(operator%datum(), 0.0_dp, canonical%has_translation)
     call canonical%transform_change(gap_change, load_change, reduced_gap, load, info)
     if (info%failed()) return
-    call find_unresisted_basis(canonical%modes, is_at_stop(state), unresisted)
+    call find_unresisted_basis(canonical%modes, contact, unresisted)
     call refuse_unresisted(load, unresisted, info)
     if (info%failed()) return
-    call solve_refined(canonical, operator%alpha, [datum, factor%datum], factor, is_at_stop(state), reduced_gap, load, &
+    call solve_refined(canonical, operator%alpha, [datum, factor%datum], factor, contact, reduced_gap, load, &
                        force, free_motion, fits)
     free_motion = without_unresisted(free_motion, unresisted)
-    if (is_rigid(canonical%modes, reduced_gap, load, free_motion, is_at_stop(state))) force = 0.0_dp
+    if (is_rigid(canonical%modes, reduced_gap, load, free_motion, contact)) force = 0.0_dp
     gap = reduced_gap - rigid_displacement(canonical%modes, free_motion)
     if (present(wanted)) then
-      call add_displacement_at(operator%alpha, datum, is_at_stop(state), &
-                               .not. (wanted .or. (is_at_stop(state) .and. .not. fits)), force, gap)
+      passed_over = .not. (wanted .or. (contact .and. .not. fits))
+      call add_displacement_at(operator%alpha, datum, contact, passed_over, force, gap)
     else
-      call add_elastic_displacement(operator%alpha, datum, is_at_stop(state), force, gap)
+      call add_elastic_displacement(operator%alpha, datum, contact, force, gap)
     end if
     ! A regularised factor leaves gaps open where the changes do not fit to a singular alpha.
     if (.not. (fits .or. factor%regularisation > 0.0_dp)) fits = is_closed(canonical%modes, operator%alpha, &
-      [datum, factor%datum], is_at_stop(state), reduced_gap, force, free_motion, gap)
+      [datum, factor%datum], contact, reduced_gap, force, free_motion, gap)
     if (.not. (fits .or. factor%regularisation > 0.0_dp)) then
       call report(info, FUGE_ERR_CALL_ORDER, 'the factor of the last solve does not fit alpha: set a new operator ' &
                   //'after a change of alpha, and solve again; or alpha is too badly conditioned')
       return
     end if
-    where (is_at_stop(state)) gap = 0.0_dp
+    where (contact) gap = 0.0_dp
     if (canonical%has_translation) free_motion(1) = free_motion(1) + datum*load(1)
     call canonical%to_given_modes(load_change, free_motion, motion)
     if (present(wanted)) then

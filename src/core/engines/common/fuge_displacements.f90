@@ -18,6 +18,8 @@ module fuge_displacements
   integer, parameter :: SHORT_RUN = 16
   !> Runs of columns from this length on are left to BLAS, where rounding does not matter.
   integer, parameter :: LONG_RUN = 8
+  !> Into so many sums a row times forces is split.
+  integer, parameter :: SUMS_SIDE_BY_SIDE = 8
   !> Threads share displacements with more coefficients than this, in groups of ROWS points.
   real(dp), parameter :: SHARED = 2.0_dp**17
   integer, parameter :: ROWS = 16
@@ -181,22 +183,13 @@ contains
     logical, intent(in) :: contact(:), passed_over(:)
     integer, intent(in) :: first, last
     real(dp), intent(inout), contiguous :: u(:)
-    real(dp) :: added(4)
-    integer :: from, k, points(4), to, waiting
+    integer :: from, k, to
 
     from = findloc_contact(contact, 1, size(contact))
     to = findloc_contact(contact, size(contact), 1)
-    waiting = 0
     do k = first, last
       if (passed_over(k)) cycle
-      waiting = waiting + 1
-      ! The last of them stand for four.
-      points(waiting:) = k
-      if (waiting < 4 .and. .not. all(passed_over(k + 1:last))) cycle
-      added = displacements_at(alpha(from:to, points(1)), alpha(from:to, points(2)), alpha(from:to, points(3)), &
-                               alpha(from:to, points(4)), datum, force(from:to))
-      u(points(:waiting)) = u(points(:waiting)) + added(:waiting)
-      waiting = 0
+      u(k) = u(k) + displacement_at(alpha(from:to, k), datum, force(from:to))
     end do
   end subroutine add_at_points
 
@@ -229,37 +222,24 @@ contains
     point = to
   end function findloc_contact
 
-  !> (row - datum).force for four rows together, which load the forces once, each in two sums that the processor adds
-  !> side by side.
-  pure function displacements_at(a, b, c, d, datum, force) result(displacement)
-    real(dp), intent(in), contiguous :: a(:), b(:), c(:), d(:), force(:)
+  !> (row - datum).force, in sums that the processor adds side by side.
+  pure function displacement_at(row, datum, force) result(displacement)
+    real(dp), intent(in), contiguous :: row(:), force(:)
     real(dp), intent(in) :: datum
-    real(dp) :: displacement(4)
-    real(dp) :: a1, a2, b1, b2, c1, c2, d1, d2
-    integer :: k
+    real(dp) :: displacement, sums(SUMS_SIDE_BY_SIDE)
+    integer :: j, k
 
-    a1 = 0.0_dp
-    a2 = 0.0_dp
-    b1 = 0.0_dp
-    b2 = 0.0_dp
-    c1 = 0.0_dp
-    c2 = 0.0_dp
-    d1 = 0.0_dp
-    d2 = 0.0_dp
-    do k = 1, size(force) - 1, 2
-      a1 = a1 + (a(k) - datum)*force(k)
-      a2 = a2 + (a(k + 1) - datum)*force(k + 1)
-      b1 = b1 + (b(k) - datum)*force(k)
-      b2 = b2 + (b(k + 1) - datum)*force(k + 1)
-      c1 = c1 + (c(k) - datum)*force(k)
-      c2 = c2 + (c(k + 1) - datum)*force(k + 1)
-      d1 = d1 + (d(k) - datum)*force(k)
-      d2 = d2 + (d(k + 1) - datum)*force(k + 1)
+    sums = 0.0_dp
+    do k = 0, size(force) - SUMS_SIDE_BY_SIDE, SUMS_SIDE_BY_SIDE
+      do j = 1, SUMS_SIDE_BY_SIDE
+        sums(j) = sums(j) + (row(k + j) - datum)*force(k + j)
+      end do
     end do
-    displacement = [a1 + a2, b1 + b2, c1 + c2, d1 + d2]
-    k = size(force)
-    if (modulo(k, 2) == 1) displacement = displacement + ([a(k), b(k), c(k), d(k)] - datum)*force(k)
-  end function displacements_at
+    displacement = sum(sums)
+    do k = size(force) - modulo(size(force), SUMS_SIDE_BY_SIDE) + 1, size(force)
+      displacement = displacement + (row(k) - datum)*force(k)
+    end do
+  end function displacement_at
 
   !> The rows `first` to `last` of `add_elastic_displacement`.
   pure subroutine add_in_rows(alpha, datum, contact, force, first, last, u)
