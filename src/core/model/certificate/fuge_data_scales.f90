@@ -10,8 +10,8 @@ module fuge_data_scales
 
 contains
 
-  !> The lengths that the data have: the range of the gaps (their size, but for one translation) under the prescribed
-  !> motions, the plays, and what the loads displace.
+  !> The lengths that the data have: the range of the gaps (their size, but for one translation that nothing holds)
+  !> under the prescribed motions, the plays, and what the loads displace.
   !>
   !> Of the points that take part: `arms` (m), the largest displacement by a unit of each motion, 1 for one translation;
   !> `extremes`, the largest of the magnitude of a gap less the prescribed motions, of this gap, of minus this gap, of
@@ -30,7 +30,7 @@ contains
     end do
     length = extremes(1)
     if (.not. allocated(problem%modes)) then
-      if (.not. is_prescribed(problem, 1)) length = extremes(2) + extremes(3)
+      if (.not. (is_prescribed(problem, 1) .or. any(problem%motions_on_springs()))) length = extremes(2) + extremes(3)
     end if
     length = max(length, extremes(5)) + min(load/total, 1.0_dp)*extremes(4)
   end function data_length
