@@ -238,7 +238,7 @@ contains
     arms = 1.0_dp
     if (.not. allocated(self%modes)) return
     do j = 1, size(arms)
-      arms(j) = max(maxval(abs(self%modes(:, j))), 0.0_dp)
+      arms(j) = max(maxval(abs(self%modes(:, lbound(self%modes, 2) + j - 1))), 0.0_dp)
     end do
   end function arms
 
@@ -397,7 +397,8 @@ contains
         return
       end if
       do j = 1, m
-        call check_values(problem%modes(:, j), 'mode '//index_text(j)//' at point ', info)
+        call check_values(problem%modes(:, lbound(problem%modes, 2) + j - 1), 'mode '//index_text(j)//' at point ', &
+                          info)
         if (info%failed()) return
       end do
     end if
@@ -428,7 +429,7 @@ contains
     call check_length(problem%resultant, m, 'resultant', info)
     if (info%failed()) return
     if (problem%has_one_load()) then
-      call check_load(problem%resultant(1), info)
+      call check_load(problem%resultant(lbound(problem%resultant, 1)), info)
     else if (allocated(problem%prescribed)) then
       call check_values(merge(0.0_dp, problem%resultant, problem%prescribed), 'resultant', info)
     else
