@@ -7,7 +7,7 @@ program fuge_program
   use chosen_transforms, only: TRANSFORMS
   use command_line, only: arguments
   use deck_problem, only: solve_deck
-  use fuge, only: fuge_info, fuge_options, FUGE_VERSION
+  use fuge_core, only: fuge_info, fuge_options, FUGE_VERSION
   use matrix_problem, only: solve_body, solve_influence
   use mesh_problem, only: solve_meshes
   use option_checks, only: check_options, WITH_ALPHA, WITH_DECK, WITH_MATRICES, WITH_MESHES, WITH_SURFACE

@@ -68,7 +68,8 @@ foreach(folder IN LISTS folders)
   endif()
 endforeach()
 
-# May `folder` use the folder `target`? The facade of a component lies in the folder of the component itself.
+# May `folder` use the folder `target`? The facade of a component lies in the folder of the component itself; a row that
+# names `core/.` means that folder without those in it.
 function(may_use folder target result)
   set(allowed FALSE)
   string(REGEX REPLACE "/.*" "" component "${folder}")
@@ -80,7 +81,11 @@ function(may_use folder target result)
       string(APPEND folder "/.")
     endif()
     foreach(may IN LISTS "may_${folder}")
-      if("${target}/" MATCHES "^${may}/")
+      if(may MATCHES "^(.*)/[.]$")
+        if(target STREQUAL CMAKE_MATCH_1)
+          set(allowed TRUE)
+        endif()
+      elseif("${target}/" MATCHES "^${may}/")
         set(allowed TRUE)
       endif()
     endforeach()

@@ -2,9 +2,10 @@
 module deck_cases
   use chosen_stiffness, only: stored_stiffness
   use deck_model, only: structure
-  use fuge, only: dp => fuge_dp, fuge_body, fuge_case_solutions, fuge_condense, fuge_condensed, fuge_deck_supports, &
-    fuge_dense_operator, fuge_describe_mechanism, fuge_find_mechanism, fuge_info, fuge_load_cases, fuge_options, &
-    fuge_problem, fuge_solve_cases, fuge_solver, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_core, only: dp => fuge_dp, fuge_case_solutions, fuge_dense_operator, fuge_info, fuge_load_cases, &
+    fuge_options, fuge_problem, fuge_solve_cases, fuge_solver, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_fe, only: fuge_body, fuge_condense, fuge_condensed, fuge_describe_mechanism, fuge_find_mechanism
+  use fuge_files, only: fuge_deck_supports
   use number_words, only: number_text, read_integer
   use progress_log, only: progress
   implicit none

@@ -3,7 +3,8 @@ module deck_fields
   use command_line, only: arguments, refuse
   use deck_cases, only: case_results
   use deck_model, only: structure
-  use fuge, only: fuge_dp, fuge_info, fuge_make_mesh, fuge_mesh, fuge_mesh_field, fuge_read_mesh, fuge_write_mesh
+  use fuge_core, only: fuge_dp, fuge_info
+  use fuge_files, only: fuge_make_mesh, fuge_mesh, fuge_mesh_field, fuge_read_mesh, fuge_write_mesh
   use number_index, only: index_of_numbers
   use number_words, only: number_text
   use text_table, only: table

@@ -1,8 +1,10 @@
 !> A structure with one-way links: what the deck, its tables and the stiffness matrix have.
 module deck_model
   use command_line, only: arguments, refuse
-  use fuge, only: dp => fuge_dp, fuge_deck, fuge_deck_links, fuge_deck_loads, fuge_info, fuge_links, &
-    fuge_read_cases, fuge_read_deck, fuge_read_links, fuge_read_stiffness, fuge_read_supports
+  use fuge_core, only: dp => fuge_dp, fuge_info
+  use fuge_fe, only: fuge_links
+  use fuge_files, only: fuge_deck, fuge_deck_links, fuge_deck_loads, fuge_read_cases, fuge_read_deck, fuge_read_links, &
+    fuge_read_stiffness, fuge_read_supports
   use number_words, only: number_text
   use option_checks, only: check_input
   use progress_log, only: progress

@@ -5,7 +5,8 @@ module deck_problem
   use deck_fields, only: is_mesh_file, read_drawn_mesh, write_fields
   use deck_model, only: structure
   use deck_table, only: write_links
-  use fuge, only: fuge_info, fuge_mesh, fuge_options
+  use fuge_core, only: fuge_info, fuge_options
+  use fuge_files, only: fuge_mesh
   use number_words, only: number_text
   use problem_solution, only: warn
   use progress_log, only: progress

@@ -3,8 +3,8 @@ module deck_table
   use contact_table, only: put_outcome
   use deck_cases, only: case_results
   use deck_model, only: structure
-  use fuge, only: dp => fuge_dp, fuge_info, FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, &
-    FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER
+  use fuge_core, only: dp => fuge_dp, fuge_info, FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, &
+    FUGE_LIMITED_UPPER
   use number_words, only: number_text, short_text
   use text_table, only: table
   implicit none

@@ -2,8 +2,9 @@
 module matrix_body
   use chosen_stiffness, only: stored_stiffness
   use command_line, only: arguments
-  use fuge, only: dp => fuge_dp, fuge_body, fuge_condense, fuge_condensed, fuge_info, fuge_problem, fuge_read_matrix, &
-    fuge_read_sparse, fuge_read_stiffness, fuge_solution, FUGE_ERR_DOF
+  use fuge_core, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution, FUGE_ERR_DOF
+  use fuge_fe, only: fuge_body, fuge_condense, fuge_condensed
+  use fuge_files, only: fuge_read_matrix, fuge_read_sparse, fuge_read_stiffness
   use matrix_files, only: read_vector, refuse_size
   use number_words, only: number_text
   use progress_log, only: progress

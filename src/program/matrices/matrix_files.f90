@@ -1,6 +1,7 @@
 !> Matrix Market files: matrices and vectors of the right size.
 module matrix_files
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_read_matrix, FUGE_ERR_SIZE
+  use fuge_core, only: dp => fuge_dp, fuge_info, fuge_problem, FUGE_ERR_SIZE
+  use fuge_files, only: fuge_read_matrix
   implicit none
   private
 

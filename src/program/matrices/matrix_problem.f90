@@ -4,7 +4,7 @@ module matrix_problem
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use command_line, only: arguments, refuse
   use contact_table, only: write_contact, write_displacements
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_proof, fuge_solution, FUGE_ERR_MODES
+  use fuge_core, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_proof, fuge_solution, FUGE_ERR_MODES
   use matrix_body, only: elastic_body
   use matrix_files, only: read_square, read_vector, read_modes
   use number_words, only: number_text, read_integer, read_real

@@ -1,6 +1,6 @@
 !> Forces of a uniform pressure on one face of an element, at its nodes.
 module face_pressures
-  use fuge, only: dp => fuge_dp
+  use fuge_core, only: dp => fuge_dp
   implicit none
   private
 

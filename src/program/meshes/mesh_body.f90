@@ -1,8 +1,9 @@
 !> The bodies of a problem with meshes: what their files have.
 module mesh_body
   use command_line, only: arguments, refuse
-  use fuge, only: fuge_elastic_body, fuge_info, fuge_mesh, fuge_read_mesh, fuge_read_stiffness, FUGE_ERR_FILE, &
-    FUGE_ERR_MEMORY
+  use fuge_core, only: fuge_info, FUGE_ERR_FILE, FUGE_ERR_MEMORY
+  use fuge_fe, only: fuge_elastic_body
+  use fuge_files, only: fuge_mesh, fuge_read_mesh, fuge_read_stiffness
   use number_index, only: index_of_numbers
   use number_words, only: number_text
   use option_checks, only: check_input

@@ -1,7 +1,7 @@
 !> Supports and loads at nodes: from the command line, from tables, and from input files.
 module mesh_conditions
   use command_line, only: arguments, refuse, setting
-  use fuge, only: dp => fuge_dp, fuge_info
+  use fuge_core, only: dp => fuge_dp, fuge_info
   use mesh_body, only: model_body, DIRECTIONS
   use mesh_names, only: find_nodes, upper_case
   use mesh_pressures, only: take_pressure

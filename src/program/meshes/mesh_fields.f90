@@ -1,7 +1,8 @@
 !> Displacements of bodies with meshes: a table, or a file for ParaView.
 module mesh_fields
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_join_meshes, fuge_joined_bodies, fuge_mesh, fuge_mesh_field, &
-    fuge_solution, fuge_write_mesh
+  use fuge_core, only: dp => fuge_dp, fuge_info, fuge_solution
+  use fuge_fe, only: fuge_joined_bodies
+  use fuge_files, only: fuge_join_meshes, fuge_mesh, fuge_mesh_field, fuge_write_mesh
   use mesh_body, only: model_body
   use mesh_names, only: upper_case
   use mesh_pairs, only: mesh_node, model_pair

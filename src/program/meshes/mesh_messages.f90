@@ -1,6 +1,7 @@
 !> Messages of the library in the words of the files: nodes and names of bodies instead of their numbers.
 module mesh_messages
-  use fuge, only: dp => fuge_dp, fuge_condensed, fuge_info, fuge_joined_bodies, fuge_solution, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_core, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ERR_NO_EQUILIBRIUM
+  use fuge_fe, only: fuge_condensed, fuge_joined_bodies
   use mesh_body, only: model_body
   use number_words, only: number_text, read_integer
   implicit none

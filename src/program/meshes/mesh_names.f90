@@ -1,7 +1,8 @@
 !> What names on the command line mean: a surface, or nodes, of one of the bodies.
 module mesh_names
   use command_line, only: refuse
-  use fuge, only: fuge_info, fuge_mesh, fuge_mesh_faces
+  use fuge_core, only: fuge_info
+  use fuge_files, only: fuge_mesh, fuge_mesh_faces
   use mesh_body, only: model_body
   use number_words, only: read_integer
   implicit none

@@ -1,8 +1,10 @@
 !> Pairs of surfaces as the options name them.
 module mesh_pairs
   use command_line, only: arguments, refuse
-  use fuge, only: dp => fuge_dp, fuge_contact_pairs, fuge_info, fuge_mesh_faces, fuge_pair_options, fuge_surface_mesh, &
-    fuge_surface_pair, FUGE_NODE_TO_FACE, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
+  use fuge_core, only: dp => fuge_dp, fuge_info
+  use fuge_fe, only: fuge_contact_pairs, fuge_pair_options, fuge_surface_mesh, fuge_surface_pair, FUGE_NODE_TO_FACE, &
+    FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
+  use fuge_files, only: fuge_mesh_faces
   use mesh_body, only: model_body, refuse_memory
   use mesh_names, only: find_surface
   use number_words, only: number_text, read_real

@@ -2,7 +2,8 @@
 module mesh_pressures
   use command_line, only: refuse, setting
   use face_pressures, only: add_face_forces
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_mesh_faces
+  use fuge_core, only: dp => fuge_dp, fuge_info
+  use fuge_files, only: fuge_mesh_faces
   use mesh_body, only: model_body
   use mesh_names, only: find_surface
   use number_words, only: read_real

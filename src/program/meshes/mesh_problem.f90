@@ -2,8 +2,9 @@
 module mesh_problem
   use chosen_stiffness, only: stored_stiffness
   use command_line, only: arguments, refuse
-  use fuge, only: dp => fuge_dp, fuge_condense, fuge_condensed, fuge_elastic_body, fuge_info, fuge_join_bodies, &
-    fuge_joined_bodies, fuge_options, fuge_problem, fuge_solution, fuge_surface_pair
+  use fuge_core, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_solution
+  use fuge_fe, only: fuge_condense, fuge_condensed, fuge_elastic_body, fuge_join_bodies, fuge_joined_bodies, &
+    fuge_surface_pair
   use mesh_body, only: model_body, read_bodies, refuse_memory
   use mesh_conditions, only: take_conditions
   use mesh_fields, only: check_fields, write_fields

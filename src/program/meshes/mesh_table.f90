@@ -1,7 +1,8 @@
 !> The table of contact points of meshes.
 module mesh_table
   use contact_table, only: put_status, state_word
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_joined_bodies, fuge_problem, fuge_solution
+  use fuge_core, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_solution
+  use fuge_fe, only: fuge_joined_bodies
   use mesh_body, only: model_body
   use mesh_pairs, only: mesh_node, model_pair
   use number_words, only: number_text

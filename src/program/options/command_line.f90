@@ -1,6 +1,6 @@
 !> The command line of the program `fuge`, and job files: options in their order.
 module command_line
-  use fuge, only: dp => fuge_dp, fuge_info, FUGE_ERR_OPTION
+  use fuge_core, only: dp => fuge_dp, fuge_info, FUGE_ERR_OPTION
   use number_words, only: read_real
   use option_table, only: may_repeat, option_number, takes_value, INPUTS, OPTION_NAMES
   use similar_words, only: similar_word

@@ -2,7 +2,7 @@
 module option_checks
   use command_line, only: arguments, refuse
   use file_access, only: prepare_file, remove_file, same_file
-  use fuge, only: fuge_info
+  use fuge_core, only: fuge_info
   use option_table, only: INPUTS
   implicit none
   private

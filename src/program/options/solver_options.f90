@@ -1,7 +1,7 @@
 !> What the options of the program say about every solve.
 module solver_options
   use command_line, only: arguments, refuse
-  use fuge, only: fuge_info, fuge_options
+  use fuge_core, only: fuge_info, fuge_options
   use number_words, only: read_integer
   implicit none
   private

@@ -1,6 +1,6 @@
 !> How stiffness matrices are stored where the library has no sparse component.
 module chosen_stiffness
-  use fuge, only: stored_stiffness => fuge_dense_stiffness
+  use fuge_fe, only: stored_stiffness => fuge_dense_stiffness
   implicit none
   private
 

@@ -1,8 +1,8 @@
 !> The solution of a contact problem whose influence matrix is known, and what warnings become.
 module problem_solution
   use, intrinsic :: iso_fortran_env, only: error_unit
-  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_proof, fuge_prove, &
-    fuge_solution, fuge_solver
+  use fuge_core, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_proof, &
+    fuge_prove, fuge_solution, fuge_solver
   use number_words, only: number_text
   use progress_log, only: progress
   implicit none

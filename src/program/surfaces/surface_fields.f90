@@ -1,7 +1,8 @@
 !> Height, pressure and gap of a measured surface: for ParaView, or as a table that gnuplot draws.
 module surface_fields
   use command_line, only: refuse
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, fuge_surface, fuge_write_results, FUGE_ERR_MEMORY
+  use fuge_core, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ERR_MEMORY
+  use fuge_files, only: fuge_surface, fuge_write_results
   use text_table, only: table
   implicit none
   private

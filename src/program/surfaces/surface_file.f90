@@ -1,7 +1,7 @@
 !> A measured surface from its file: in the user's unit of length, and levelled.
 module surface_file
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_level_surface, fuge_read_surface, fuge_surface, FUGE_ERR_OPTION, &
-    FUGE_ERR_OVERFLOW
+  use fuge_core, only: dp => fuge_dp, fuge_info, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW
+  use fuge_files, only: fuge_level_surface, fuge_read_surface, fuge_surface
   use number_words, only: short_text
   use surface_options, only: surface_settings, LEVEL_NONE
   implicit none

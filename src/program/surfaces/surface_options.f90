@@ -1,9 +1,10 @@
 !> What the options of the program say about a measured surface and its loads.
 module surface_options
   use command_line, only: arguments, refuse
-  use fuge, only: dp => fuge_dp, fuge_combined_modulus, fuge_info, fuge_options, fuge_plane_modulus, FUGE_CENTRE, &
-    FUGE_FREE, FUGE_LEVEL_MEAN, FUGE_LEVEL_PLANE, FUGE_MEAN, FUGE_PERIODIC, FUGE_PERIODIC_X, FUGE_PERIODIC_Y, &
-    FUGE_PLANE_STRAIN
+  use fuge_area, only: FUGE_PERIODIC_X, FUGE_PERIODIC_Y
+  use fuge_core, only: dp => fuge_dp, fuge_combined_modulus, fuge_info, fuge_options, fuge_plane_modulus, FUGE_CENTRE, &
+    FUGE_FREE, FUGE_MEAN, FUGE_PERIODIC, FUGE_PLANE_STRAIN
+  use fuge_files, only: FUGE_LEVEL_MEAN, FUGE_LEVEL_PLANE
   implicit none
   private
 

@@ -2,8 +2,10 @@
 module surface_problem
   use, intrinsic :: iso_fortran_env, only: error_unit
   use command_line, only: arguments, refuse
-  use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_info, fuge_options, fuge_problem, &
-    fuge_proof, fuge_prove, fuge_solution, fuge_solver, fuge_surface, FUGE_ERR_MEMORY
+  use fuge_area, only: fuge_halfspace_operator
+  use fuge_core, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_proof, fuge_prove, fuge_solution, &
+    fuge_solver, FUGE_ERR_MEMORY
+  use fuge_files, only: fuge_surface
   use number_words, only: number_text, short_text
   use problem_solution, only: take_warning
   use progress_log, only: progress

@@ -1,7 +1,8 @@
 !> The table of a measured surface: a line for each load.
 module surface_table
   use contact_table, only: put_outcome
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_proof, fuge_solution, fuge_surface
+  use fuge_core, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_proof, fuge_solution
+  use fuge_files, only: fuge_surface
   use number_words, only: number_text, short_text
   use surface_file, only: rms_height, rms_slope
   use surface_options, only: surface_settings, BOUNDARY_NAMES, ELEMENT_NAMES, LEVEL_NAMES

@@ -1,6 +1,6 @@
 !> Tables of contact forces and of displacements: CSV with comments after #.
 module contact_table
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_proof, fuge_solution, fuge_status_text, &
+  use fuge_core, only: dp => fuge_dp, fuge_info, fuge_problem, fuge_proof, fuge_solution, fuge_status_text, &
     FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER
   use text_table, only: table
   implicit none

@@ -1,7 +1,7 @@
 !> What Fortran does not know of files: which paths lead to the same one, and whether all that was written is there.
 module file_access
   use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_ptr, c_size_t
-  use fuge, only: fuge_info, FUGE_ERR_FILE
+  use fuge_core, only: fuge_info, FUGE_ERR_FILE
   implicit none
   private
 

@@ -1,7 +1,7 @@
 !> Numbers in words of the command line and of tables.
 module number_words
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use fuge, only: dp => fuge_dp
+  use fuge_core, only: dp => fuge_dp
   implicit none
   private
 

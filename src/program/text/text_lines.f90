@@ -1,7 +1,7 @@
 !> Lines of a file: job files and tables of supports and loads.
 module text_lines
   use file_access, only: is_endless
-  use fuge, only: fuge_info, FUGE_ERR_FILE
+  use fuge_core, only: fuge_info, FUGE_ERR_FILE
   use number_words, only: number_text
   implicit none
   private

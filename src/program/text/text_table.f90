@@ -2,7 +2,7 @@
 module text_table
   use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
   use file_access, only: close_table, empty_file, open_table, put_line, refuse_file
-  use fuge, only: fuge_info
+  use fuge_core, only: fuge_info
   implicit none
   private
 
