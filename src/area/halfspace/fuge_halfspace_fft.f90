@@ -1,14 +1,12 @@
 !> The elastic half-space on a uniform grid of rectangles, by FFT: A of `fuge_halfspace_matrix`, or of a periodic
 !> surface, in O(n log n) operations and O(n) memory.
 module fuge_halfspace_fft
-  use fuge_grid_convolution, only: find_bounds
   use fuge_grid_plan, only: grid_plan
   use fuge_grid_operator_type, only: grid_operator
   use fuge_halfplane_fft, only: FUGE_FREE
   use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, computes_later, count_coarser, &
     cyclic, halfspace_grid, is_large, least_magnitude, periodic, slope_of_waves
   use fuge_halfspace_kernels, only: bytes_in_slices, kernel_store, multiply_in_slices
-  use fuge_halfspace_spectra, only: bytes_needed
   use fuge_kept_rows, only: drop_rows
   use fuge_kinds, only: dp, sp
   use fuge_memory, only: check_memory
@@ -128,6 +126,7 @@ contains
 
   !> Plan the transforms. Error: FUGE_ERR_MEMORY.
   subroutine plan_transforms(operator, info)
+    use fuge_halfspace_spectra, only: bytes_needed
     type(fuge_halfspace_operator), intent(inout) :: operator
     type(fuge_info), intent(inout) :: info
     real(dp) :: bytes
@@ -415,6 +414,7 @@ contains
   !> periodic ones, and of free grids of more than 4096 x 4096 cells. `status`: 0, FUGE_ERR_CALL_ORDER or
   !> FUGE_ERR_MEMORY.
   subroutine surface_bounds(self, bounds, status)
+    use fuge_grid_convolution, only: find_bounds
     class(fuge_halfspace_operator), intent(in) :: self
     type(operator_bounds), intent(out) :: bounds
     integer, intent(out) :: status

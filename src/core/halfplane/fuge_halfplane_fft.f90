@@ -10,7 +10,6 @@ module fuge_halfplane_fft
   use fuge_grid_operator_type, only: grid_operator
   use fuge_halfplane_line, only: check_line, circle_of, coarsened, count_coarser, halfplane_line, least_magnitude, &
     FUGE_FREE, FUGE_PERIODIC
-  use fuge_halfplane_spectra, only: compute_line_spectra
   use fuge_kinds, only: dp
   use fuge_line_plan, only: line_plan
   use fuge_number_text, only: text
@@ -78,6 +77,7 @@ contains
   !> FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW,
   !> FUGE_ERR_MEMORY; FUGE_ERR_UNSUPPORTED in a library without FFTW.
   subroutine set(self, n, spacing, e_star, info, element, boundary, measured, body)
+    use fuge_halfplane_spectra, only: compute_line_spectra
     class(fuge_halfplane_operator), intent(inout) :: self
     integer, intent(in) :: n
     real(dp), intent(in) :: spacing, e_star

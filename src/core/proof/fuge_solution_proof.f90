@@ -4,12 +4,10 @@ module fuge_solution_proof
   use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_matrix_operator, only: fuge_dense_operator
-  use fuge_matrix_proof, only: prove_with_matrix
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: check_problem, fuge_problem, fuge_solution
   use fuge_proof_type, only: fuge_proof
-  use fuge_spectral_proof, only: prove_with_products
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_NOT_FINITE, FUGE_ERR_SIZE, &
     FUGE_ERR_UNSUPPORTED, FUGE_WARN_NOT_PROVED
   implicit none
@@ -31,6 +29,8 @@ contains
   !> was: those of the problem's checks; FUGE_ERR_CALL_ORDER for an operator that is not set; FUGE_ERR_SIZE;
   !> FUGE_ERR_NOT_FINITE; FUGE_ERR_UNSUPPORTED where ranks share the points; FUGE_ERR_MEMORY; those of the product.
   subroutine fuge_prove(operator, problem, solution, proof, info)
+    use fuge_matrix_proof, only: prove_with_matrix
+    use fuge_spectral_proof, only: prove_with_products
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution

@@ -1,7 +1,6 @@
 !> The interface of an engine for the solver: one solve after the other, each from what is kept of the last one, and
 !> derivatives of the last solution.
 module fuge_contact_engine
-  use fuge_canonical_problem, only: canonical_problem
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
@@ -13,11 +12,10 @@ module fuge_contact_engine
   private
 
   type, abstract, public :: contact_engine
-    !> The last problem, where the engine needs its canonical form.
-    type(canonical_problem) :: canonical
   contains
     procedure(solve_problem), deferred :: solve
     procedure(judge_level), deferred :: judge
+    procedure(judge_level), deferred :: explain
     procedure :: keep => keep_nothing
     procedure(is_doubtful), deferred :: was_misled
     procedure(forget), deferred :: distrust_start
@@ -27,6 +25,13 @@ module fuge_contact_engine
     procedure(differentiate), deferred :: derivative
     procedure(compare_states), deferred :: has_found
   end type contact_engine
+
+  !> An engine that needs the coefficients of a matrix, and starts from states of the points.
+  type, abstract, extends(contact_engine), public :: matrix_engine
+  contains
+    procedure(take_states), deferred :: start_from
+    procedure(take_solution), deferred :: take_arrays
+  end type matrix_engine
 
   abstract interface
     !> Solve `problem`, checked, which has a load if it is plain, and estimate the error of the forces,
@@ -44,7 +49,8 @@ module fuge_contact_engine
       type(fuge_info), intent(inout) :: info
     end subroutine solve_problem
 
-    !> Refuse the solution just found if the rounding of the data may hide the level of its forces.
+    !> `judge`: refuse the solution just found if the rounding of the data may hide the level of its forces. `explain`:
+    !> where the engine has found that there is none, name that cause in `info`.
     subroutine judge_level(self, operator, problem, tolerance, info)
       import :: contact_engine, dp, fuge_operator, fuge_problem, fuge_info
       class(contact_engine), intent(in) :: self
@@ -94,6 +100,20 @@ module fuge_contact_engine
       type(fuge_info), intent(inout) :: info
       logical, intent(in), optional :: wanted(:)
     end subroutine differentiate
+
+    !> Let the next solve start from these states, (n), if there were n points in the last one.
+    pure subroutine take_states(self, state)
+      import :: matrix_engine
+      class(matrix_engine), intent(inout) :: self
+      integer, intent(in) :: state(:)
+    end subroutine take_states
+
+    !> Keep the arrays of a `solution` that the caller has had for the next solve.
+    subroutine take_solution(self, solution)
+      import :: matrix_engine, fuge_solution
+      class(matrix_engine), intent(inout) :: self
+      type(fuge_solution), intent(inout) :: solution
+    end subroutine take_solution
   end interface
 
 contains

@@ -2,11 +2,11 @@
 module fuge_dense_engine
   use fuge_active_set_engine, only: solve_by_active_set
   use fuge_canonical_problem, only: canonical_problem, make_canonical
-  use fuge_contact_engine, only: contact_engine
+  use fuge_contact_engine, only: matrix_engine
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_force_error, only: estimate_force_error
-  use fuge_force_level, only: judge_force_level
+  use fuge_force_level, only: explain_by_force_level, judge_force_level
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
@@ -29,8 +29,10 @@ module fuge_dense_engine
   !> Forces of springs beyond this multiple of the largest force of a point are taken out, and the rest solved anew.
   real(dp), parameter :: MUCH_MORE = 8.0_dp
 
-  type, extends(contact_engine), public :: dense_engine
+  type, extends(matrix_engine), public :: dense_engine
     private
+    !> The last problem, where its canonical form is needed.
+    type(canonical_problem) :: canonical
     !> States of the last solve, where the next one starts.
     integer, allocatable :: state(:)
     !> Their factor outlives a solve: the next one starts from it if the matrix is the same.
@@ -50,6 +52,7 @@ module fuge_dense_engine
   contains
     procedure :: solve
     procedure :: judge
+    procedure :: explain
     procedure :: was_misled
     procedure :: distrust_start
     procedure :: forget_start
@@ -305,6 +308,17 @@ contains
     call judge_force_level(operator, self%canonical, problem%gap, self%state, tolerance, info)
   end subroutine judge
 
+  !> As for `contact_engine`.
+  subroutine explain(self, operator, problem, tolerance, info)
+    class(dense_engine), intent(in) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    real(dp), intent(in) :: tolerance
+    type(fuge_info), intent(inout) :: info
+
+    call explain_by_force_level(operator, self%canonical, problem%gap, tolerance, info)
+  end subroutine explain
+
   !> The matrix may have changed since it was factored, although the operator was not set again.
   pure function was_misled(self, status)
     class(dense_engine), intent(in) :: self
@@ -397,7 +411,7 @@ contains
     if (.not. info%failed()) call strip_solution(size(gap_change), change, info)
   end subroutine derivative_with_springs
 
-  !> Let the next solve start from these states, (n), if there were n points in the last one.
+  !> As for `matrix_engine`.
   pure subroutine start_from(self, state)
     class(dense_engine), intent(inout) :: self
     integer, intent(in) :: state(:)
@@ -405,7 +419,7 @@ contains
     if (self%last_points() == size(state)) self%state(:size(state)) = state
   end subroutine start_from
 
-  !> Keep the arrays of a `solution` that the caller has had for the next solve.
+  !> As for `matrix_engine`.
   subroutine take_arrays(self, solution)
     class(dense_engine), intent(inout) :: self
     type(fuge_solution), intent(inout) :: solution

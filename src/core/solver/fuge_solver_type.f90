@@ -1,40 +1,33 @@
 !> From a problem to a certified solution: checks, choice of engine, certificate, derivatives.
 module fuge_solver_type
-  use fuge_certified_solution, only: certify
-  use fuge_contact_engine, only: contact_engine
-  use fuge_dense_engine, only: dense_engine
-  use fuge_force_level, only: explain_by_force_level
+  use fuge_contact_engine, only: contact_engine, matrix_engine
   use fuge_history_type, only: fuge_history
   use fuge_input_checks, only: check_finite
-  use fuge_iterative_engine, only: is_general
   use fuge_kinds, only: dp
-  use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_monitor_type, only: fuge_monitor, monitor_relay
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_options_type, only: fuge_options, check_options, FUGE_AUTO, FUGE_ITERATIVE
+  use fuge_options_type, only: fuge_options, check_options
   use fuge_problem_bounds, only: begins_with_one
   use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, copy_problem, move_solution, set_problem
-  use fuge_product_engine, only: product_engine
   use fuge_point_space, only: point_space
-  use fuge_shared_problem, only: check_shared_problem, differ
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, &
     FUGE_ERR_OPTION
   use fuge_threads, only: thread_team, usable_threads
-  use fuge_unloaded_contact, only: is_unloaded, solve_without_load
   implicit none
   private
 
-  public :: fuge_solve_dense, takes_products
+  public :: fuge_solve_dense
 
   !> Solves contact problems one after the other, each from the contact set of the last one. One solver for each
-  !> thread.
+  !> thread. What engines are made of is known where they are made alone: neither a compiler that reads this type nor a
+  !> reader has to go through it.
   type, public :: fuge_solver
     !> Basis and z of each pivot of the last tableau solve, if it was asked for.
     type(fuge_history) :: history
-    type(dense_engine), private :: by_matrix
-    !> Allocated by the first solve that needs it: many solvers of small problems never do.
-    type(product_engine), allocatable, private :: by_products
+    !> Each is allocated by the first solve that needs it.
+    class(matrix_engine), allocatable, private :: by_matrix
+    class(contact_engine), allocatable, private :: by_products
     !> The last solve was by the iteration.
     logical, private :: solved_by_products = .false.
     !> The last solve was accepted, and had a load: only then are there derivatives.
@@ -104,6 +97,10 @@ contains
 
   !> Solve a problem whose arrays begin with 1, with options that hold.
   subroutine solve_from_one(self, operator, problem, chosen, space, relay, solution, info)
+    use fuge_certified_solution, only: certify
+    use fuge_engine_choice, only: takes_products
+    use fuge_shared_problem, only: check_shared_problem
+    use fuge_unloaded_contact, only: is_unloaded, solve_without_load
     class(fuge_solver), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -137,7 +134,9 @@ contains
         if (.not. info%failed()) call solve_again_if_misled(self%by_products, operator, problem, chosen, relay, &
                                                             self%history, candidate, info)
       else
-        call solve_again_if_misled(self%by_matrix, operator, problem, chosen, relay, self%history, candidate, info)
+        call require_matrix_engine(self%by_matrix, info)
+        if (.not. info%failed()) call solve_again_if_misled(self%by_matrix, operator, problem, chosen, relay, &
+                                                            self%history, candidate, info)
       end if
       if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
                                                          //text(relay%reported)//' by the progress monitor')
@@ -146,42 +145,39 @@ contains
     call team%end()
     if (info%failed()) then
       ! A factor from which no accepted solution came is no start for the next solve.
-      call self%by_matrix%distrust_start()
+      if (allocated(self%by_matrix)) call self%by_matrix%distrust_start()
     else
       self%last_report = info
-      if (.not. self%solved_by_products) call self%by_matrix%take_arrays(solution)
+      if (allocated(self%by_matrix) .and. .not. self%solved_by_products) call self%by_matrix%take_arrays(solution)
       call move_solution(candidate, solution)
     end if
   end subroutine solve_from_one
 
-  !> Allocate the engine unless it is already. Error: FUGE_ERR_MEMORY.
+  !> Allocate the engine for matrices unless it is already. Error: FUGE_ERR_MEMORY.
+  subroutine require_matrix_engine(engine, info)
+    use fuge_dense_engine, only: dense_engine
+    class(matrix_engine), intent(inout), allocatable :: engine
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    stat = 0
+    if (.not. allocated(engine)) allocate (dense_engine :: engine, stat=stat)
+    call require_memory(stat, 'the engine', info)
+  end subroutine require_matrix_engine
+
+  !> Allocate the engine for products unless it is already, on all ranks or on none. Error: FUGE_ERR_MEMORY.
   subroutine require_product_engine(engine, space, info)
-    type(product_engine), intent(inout), allocatable :: engine
+    use fuge_product_engine, only: product_engine
+    class(contact_engine), intent(inout), allocatable :: engine
     type(point_space), intent(in) :: space
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
     stat = 0
-    if (.not. allocated(engine)) allocate (engine, stat=stat)
+    if (.not. allocated(engine)) allocate (product_engine :: engine, stat=stat)
     call require_memory(stat, 'the iteration', info)
     call space%agree(info)
   end subroutine require_product_engine
-
-  !> Which engine? FUGE_AUTO is the active set for a matrix, or the tableau if the history is asked for, which it alone
-  !> keeps; for any other operator the iteration, which takes products.
-  pure function takes_products(operator, options)
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_options), intent(in) :: options
-    logical :: takes_products
-
-    takes_products = options%method == FUGE_ITERATIVE
-    select type (operator)
-    class is (fuge_dense_operator)
-      continue
-    class default
-      if (options%method == FUGE_AUTO) takes_products = .true.
-    end select
-  end function takes_products
 
   !> Solve, and once more if what the engine has kept of an earlier solve has misled it. What the other engine keeps
   !> has no share in that, and stays.
@@ -205,6 +201,8 @@ contains
 
   !> One solve by the `engine`, and its certificate.
   subroutine solve_and_certify(engine, operator, problem, options, monitor, history, solution, info)
+    use fuge_certified_solution, only: certify
+    use fuge_iterative_engine, only: is_general
     class(contact_engine), intent(inout) :: engine
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -219,7 +217,7 @@ contains
       call engine%judge(operator, problem, options%tolerance, info)
       if (info%failed()) call engine%forget_start()
     else if (is_general(problem) .and. .not. problem%has_law()) then
-      call explain_by_force_level(operator, engine%canonical, problem%gap, options%tolerance, info)
+      call engine%explain(operator, problem, options%tolerance, info)
     end if
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
     if (.not. info%failed()) call engine%keep(operator, problem, solution)
@@ -232,7 +230,7 @@ contains
     class(fuge_solver), intent(inout) :: self
     integer, intent(in) :: state(:)
 
-    call self%by_matrix%start_from(state)
+    if (allocated(self%by_matrix)) call self%by_matrix%start_from(state)
     ! The states are no longer those of the last solution.
     self%has_solution = self%has_solution .and. self%solved_by_products
   end subroutine start_from
@@ -245,7 +243,7 @@ contains
     self%history = fuge_history()
     self%has_solution = .false.
     self%last_report = fuge_info()
-    call self%by_matrix%forget_start()
+    if (allocated(self%by_matrix)) call self%by_matrix%forget_start()
     if (allocated(self%by_products)) call self%by_products%forget_start()
   end subroutine reset
 
@@ -341,6 +339,7 @@ contains
 
   !> The derivative of the last solution of `engine`, for changes that fit it, by up to `threads` threads.
   subroutine differentiate(engine, operator, gap_change, load_change, threads, change, info, wanted)
+    use fuge_shared_problem, only: differ
     class(contact_engine), intent(in) :: engine
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap_change(:), load_change(:)
@@ -401,6 +400,7 @@ contains
   !> `alpha` (n, n) length per force, `gap` (n) length, `load` force; out: `force` (n), `gap_out` (n) and `approach`,
   !> untouched on an error. Status and errors as for `solve` and for `set` of `fuge_dense_operator`.
   subroutine fuge_solve_dense(alpha, gap, load, force, gap_out, approach, info)
+    use fuge_matrix_operator, only: fuge_dense_operator
     real(dp), intent(in), target :: alpha(:, :)
     real(dp), intent(in) :: gap(:), load
     real(dp), intent(inout) :: force(:), gap_out(:), approach

@@ -6,19 +6,15 @@
 module fuge_body_joining
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge_body_surfaces, only: greatest_extent, pair_surfaces
   use fuge_body_type, only: fuge_body
   use fuge_condensation, only: fuge_condensed
   use fuge_contact_pairs_type, only: fuge_contact_pairs, move_pairs
   use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair, take_body
-  use fuge_face_sides, only: check_face_sides
-  use fuge_held_points, only: leave_out_held
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, &
     FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_NO_CONTACT
-  use fuge_symmetric_columns, only: symmetric_columns
   implicit none
   private
 
@@ -69,6 +65,10 @@ contains
   !> for a surface that looks into its body: that is known where its nodes are not only those of its faces, because the
   !> matrix couples each face with the element behind it.
   subroutine fuge_join_bodies(bodies, surface_pairs, joined, info)
+    use fuge_body_surfaces, only: greatest_extent, pair_surfaces
+    use fuge_face_sides, only: check_face_sides
+    use fuge_held_points, only: leave_out_held
+    use fuge_symmetric_columns, only: symmetric_columns
     type(fuge_elastic_body), intent(in) :: bodies(:)
     type(fuge_surface_pair), intent(in) :: surface_pairs(:)
     type(fuge_joined_bodies), intent(inout) :: joined
@@ -146,6 +146,7 @@ contains
 
   !> Take over all bodies, and count their degrees of freedom.
   pure subroutine take_bodies(bodies, matrices, own, first, info)
+    use fuge_symmetric_columns, only: symmetric_columns
     type(fuge_elastic_body), intent(in) :: bodies(:)
     type(symmetric_columns), intent(inout) :: matrices(:)
     type(fuge_body), intent(inout) :: own(:)
@@ -168,6 +169,7 @@ contains
 
   !> The block-diagonal stiffness matrix.
   pure subroutine join_columns(matrices, joined, info)
+    use fuge_symmetric_columns, only: symmetric_columns
     type(symmetric_columns), intent(in) :: matrices(:)
     type(fuge_joined_bodies), intent(inout) :: joined
     type(fuge_info), intent(inout) :: info

@@ -15,10 +15,6 @@
 !> out; the load must not drive it.
 module fuge_condensation
   use fuge_body_type, only: check_body, check_load_field, fuge_body
-  use fuge_condensed_cases, only: check_case_solutions, check_loads, condense_loads, find_case_displacements
-  use fuge_condensed_influence, only: find_influence
-  use fuge_contact_modes, only: check_unresisted, find_contact_modes, load_resultant, split_rigid_modes
-  use fuge_contact_normals, only: add_contact_forces, displacement_scale, point_displacement
   use fuge_held_body, only: add_motions, add_supports, find_residual, held_body, hold_body, move_held, set_loads
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
@@ -92,6 +88,7 @@ contains
 
   !> `fuge_condense`, or `condense_to_recover` if not `with_alpha`.
   subroutine condense(stiffness, body, with_alpha, condensed, info)
+    use fuge_condensed_influence, only: find_influence
     class(fuge_stiffness), intent(in) :: stiffness
     type(fuge_body), intent(in) :: body
     logical, intent(in) :: with_alpha
@@ -190,6 +187,7 @@ contains
   !> or out of range. Errors, `problem` and `cases` unchanged: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE
   !> for displacements, FUGE_ERR_MEMORY.
   subroutine pose_cases(self, gap, loads, problem, cases, info, displacement)
+    use fuge_condensed_cases, only: check_loads, condense_loads
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(in) :: gap(:), loads(:, :)
     type(fuge_problem), intent(inout) :: problem
@@ -235,6 +233,7 @@ contains
   !> report of such a case, if it had no warning, has this one. Errors, `u` unchanged but for FUGE_ERR_MEMORY:
   !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW.
   subroutine recover_cases(self, loads, solutions, u, info, displacement)
+    use fuge_condensed_cases, only: check_case_solutions, check_loads, find_case_displacements
     class(fuge_condensed), intent(in) :: self
     real(dp), intent(in) :: loads(:, :)
     type(fuge_case_solutions), intent(inout) :: solutions
@@ -262,6 +261,7 @@ contains
   !> Errors, `u` unchanged: FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
   !> FUGE_ERR_MEMORY.
   subroutine recover(self, solution, u, info)
+    use fuge_contact_normals, only: add_contact_forces
     class(fuge_condensed), intent(in) :: self
     type(fuge_solution), intent(in) :: solution
     real(dp), intent(inout) :: u(:)
@@ -357,6 +357,8 @@ contains
 
   !> R = -H^T Z; keep the modes that the contact points resist.
   subroutine keep_resisted_modes(self, info)
+    use fuge_contact_modes, only: find_contact_modes, split_rigid_modes
+    use fuge_contact_normals, only: displacement_scale
     type(fuge_condensed), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
     logical :: resisted(size(self%held%rigid_modes, 2))
@@ -383,6 +385,8 @@ contains
 
   !> b and w by the external load and the displacements of the supports, from u_p.
   subroutine apply_load(self, info)
+    use fuge_contact_modes, only: check_unresisted, load_resultant
+    use fuge_contact_normals, only: point_displacement
     type(fuge_condensed), intent(inout) :: self
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: load(:), resultant(:), displacement(:)

@@ -4,17 +4,12 @@ module fuge_contact_pairs_search
   use fuge_common_points, only: add_found
   use fuge_contact_pairs_type, only: check_pair_options, fuge_contact_pairs, fuge_pair_options, &
     FUGE_MORTAR, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
-  use fuge_curved_normals, only: find_curved_normals, mean_of_faces
   use fuge_face_geometry, only: unit
   use fuge_kinds, only: dp
-  use fuge_mortar_pairing, only: pair_faces
   use fuge_near_origin, only: move_surface, way_to_origin
   use fuge_nodal_areas, only: find_nodal_areas
   use fuge_nodal_normals, only: average_normals, take_normals
-  use fuge_node_to_face, only: pair_nodes
   use fuge_number_text, only: index_text, text
-  use fuge_opposite_faces, only: opposite_faces, prepare_opposite
-  use fuge_pair_draft_type, only: pair_draft, start_draft
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE
   use fuge_surface_checks, only: check_radii, check_surface
   use fuge_surface_mesh_type, only: fuge_surface_mesh
@@ -76,6 +71,8 @@ contains
 
   !> The same for surfaces near the origin, checked.
   subroutine find_near_pairs(contact, opposite, options, pairs, info)
+    use fuge_opposite_faces, only: opposite_faces
+    use fuge_pair_draft_type, only: pair_draft, start_draft
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     type(fuge_contact_pairs), intent(inout) :: pairs
@@ -138,6 +135,8 @@ contains
 
   !> The unit normals along which opposites are sought.
   pure subroutine set_normals(contact, options, faces, normal, stat, info)
+    use fuge_curved_normals, only: mean_of_faces
+    use fuge_opposite_faces, only: opposite_faces
     type(fuge_surface_mesh), intent(in) :: contact
     type(fuge_pair_options), intent(in) :: options
     type(opposite_faces), intent(in) :: faces
@@ -155,6 +154,10 @@ contains
 
   !> Find what lies across from each node, by the method chosen.
   pure subroutine find_draft(contact, opposite, options, normal, faces, draft, stat)
+    use fuge_mortar_pairing, only: pair_faces
+    use fuge_node_to_face, only: pair_nodes
+    use fuge_opposite_faces, only: opposite_faces, prepare_opposite
+    use fuge_pair_draft_type, only: pair_draft
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     real(dp), intent(in) :: normal(:, :)
@@ -181,6 +184,8 @@ contains
 
   !> The normals of the curved surfaces that the meshes stand for; none if faces are taken as they are.
   pure subroutine set_bends(contact, opposite, options, faces, stat)
+    use fuge_curved_normals, only: find_curved_normals
+    use fuge_opposite_faces, only: opposite_faces
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     type(opposite_faces), intent(inout) :: faces
@@ -196,6 +201,7 @@ contains
 
   !> Refuse surfaces none of whose points are opposite to each other.
   pure subroutine refuse_none(contact, draft, info)
+    use fuge_pair_draft_type, only: pair_draft
     type(fuge_surface_mesh), intent(in) :: contact
     type(pair_draft), intent(in) :: draft
     type(fuge_info), intent(inout) :: info
@@ -214,6 +220,7 @@ contains
 
   !> Make contact points of the nodes that have an opposite.
   pure subroutine collect(contact, opposite, options, normal, draft, found, stat)
+    use fuge_pair_draft_type, only: pair_draft
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     real(dp), intent(in) :: normal(:, :)
@@ -267,6 +274,7 @@ contains
 
   !> Everything about contact point `n`, of node `i`, except its row and direction.
   pure subroutine fill_point(options, draft, i, direction, n, found)
+    use fuge_pair_draft_type, only: pair_draft
     type(fuge_pair_options), intent(in) :: options
     type(pair_draft), intent(in) :: draft
     integer, intent(in) :: i, n
@@ -290,6 +298,7 @@ contains
   !> `resultant`: how it depends on a translation of the opposite surface, `direction` but for curved bodies. The
   !> arguments are nine, because a row is filled from both surfaces into arrays of the caller.
   pure subroutine fill_row(contact, opposite, draft, i, direction, place, dof, normal, resultant)
+    use fuge_pair_draft_type, only: pair_draft
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(pair_draft), intent(in) :: draft
     integer, intent(in) :: i
@@ -346,6 +355,7 @@ contains
 
   !> List the nodes of faces that have no opposite. `stat` as in an allocate statement.
   pure subroutine list_unpaired(contact, draft, found, stat)
+    use fuge_pair_draft_type, only: pair_draft
     type(fuge_surface_mesh), intent(in) :: contact
     type(pair_draft), intent(in) :: draft
     type(fuge_contact_pairs), intent(inout) :: found

@@ -1,8 +1,6 @@
 !> Decks of finite element programs: what they say beside the mesh and the stiffness matrix.
 module fuge_deck_files
-  use fuge_bulk_deck, only: read_bulk_deck
   use fuge_deck_type, only: fuge_deck, move_deck
-  use fuge_keyword_deck, only: read_keyword_deck
   use fuge_status, only: fuge_info
   use fuge_text_columns, only: after_blanks
   use fuge_text_reader, only: text_file
@@ -24,6 +22,8 @@ contains
   !> Errors, `deck` unchanged: FUGE_ERR_FILE with file, line, card and reason, also for contact, springs and loads that
   !> are not read; FUGE_ERR_MEMORY.
   subroutine fuge_read_deck(path, deck, info)
+    use fuge_bulk_deck, only: read_bulk_deck
+    use fuge_keyword_deck, only: read_keyword_deck
     character(len=*), intent(in) :: path
     type(fuge_deck), intent(inout) :: deck
     type(fuge_info), intent(out) :: info

@@ -1,9 +1,7 @@
 !> Meshes from input files of Abaqus and CalculiX: what both programs have in common.
 module fuge_mesh_files
-  use fuge_draft_sets, only: draft_sets
   use fuge_element_faces, only: nodes_of_type
   use fuge_input_deck, only: input_deck, upper_case, LINE_DATA, LINE_END, LINE_KEYWORD, VALUE_LENGTH
-  use fuge_mesh_draft, only: finish_mesh, mesh_draft
   use fuge_mesh_lines, only: add_element_nodes, mesh_block, read_element_line, read_node_line, read_set_line, &
     read_surface_line
   use fuge_mesh_type, only: fuge_mesh, move_mesh, move_text, NAME_LENGTH, TYPE_LENGTH
@@ -34,6 +32,7 @@ contains
   !> Errors, `mesh` unchanged: FUGE_ERR_FILE with file, line and reason, also for *PART, *INSTANCE, *NGEN and other
   !> keywords without which the mesh would be another one, and if there is no node; FUGE_ERR_MEMORY.
   subroutine fuge_read_mesh(path, mesh, info)
+    use fuge_mesh_draft, only: finish_mesh, mesh_draft
     character(len=*), intent(in) :: path
     type(fuge_mesh), intent(inout) :: mesh
     type(fuge_info), intent(out) :: info
@@ -56,6 +55,7 @@ contains
 
   !> Read all lines.
   subroutine read_deck(deck, draft, info)
+    use fuge_mesh_draft, only: mesh_draft
     type(input_deck), intent(inout) :: deck
     type(mesh_draft), intent(inout) :: draft
     type(fuge_info), intent(inout) :: info
@@ -87,6 +87,7 @@ contains
   end subroutine read_deck
 
   pure subroutine read_data(line, content, draft, block, reason)
+    use fuge_mesh_draft, only: mesh_draft
     character(len=*), intent(in) :: line
     integer, intent(in) :: content
     type(mesh_draft), intent(inout) :: draft
@@ -109,6 +110,7 @@ contains
 
   !> Refuse an element with fewer nodes than its type has, where the lines of elements end.
   pure subroutine check_last_element(deck, draft, block, info)
+    use fuge_mesh_draft, only: mesh_draft
     type(input_deck), intent(in) :: deck
     type(mesh_draft), intent(in) :: draft
     type(mesh_block), intent(in) :: block
@@ -122,6 +124,7 @@ contains
 
   !> Find what the data lines under a keyword are, `content`, and where they belong, `block`.
   subroutine begin_block(deck, draft, block, content, info)
+    use fuge_mesh_draft, only: mesh_draft
     type(input_deck), intent(inout) :: deck
     type(mesh_draft), intent(inout) :: draft
     type(mesh_block), intent(out) :: block
@@ -163,6 +166,7 @@ contains
 
   !> The set of nodes of a keyword line consists of the nodes of elements above.
   subroutine begin_nodes_of_elements(deck, draft, block, info)
+    use fuge_mesh_draft, only: mesh_draft
     type(input_deck), intent(inout) :: deck
     type(mesh_draft), intent(inout) :: draft
     type(mesh_block), intent(inout) :: block
@@ -177,6 +181,7 @@ contains
 
   !> The surface of a keyword line: of faces, or of nodes.
   subroutine begin_surface(deck, draft, block, content, info)
+    use fuge_mesh_draft, only: mesh_draft
     type(input_deck), intent(inout) :: deck
     type(mesh_draft), intent(inout) :: draft
     type(mesh_block), intent(inout) :: block
@@ -197,6 +202,7 @@ contains
 
   !> The set that a parameter names; refused without it if it is `needed`.
   subroutine choose_set(deck, name, needed, sets, block, status, info)
+    use fuge_draft_sets, only: draft_sets
     type(input_deck), intent(inout) :: deck
     character(len=*), intent(in) :: name
     logical, intent(in) :: needed
@@ -218,6 +224,7 @@ contains
   end subroutine choose_set
 
   subroutine choose_type(deck, draft, block, info)
+    use fuge_mesh_draft, only: mesh_draft
     type(input_deck), intent(inout) :: deck
     type(mesh_draft), intent(inout) :: draft
     type(mesh_block), intent(inout) :: block

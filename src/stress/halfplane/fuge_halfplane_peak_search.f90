@@ -4,7 +4,6 @@ module fuge_halfplane_peak_search
   use fuge_constants, only: PI
   use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
   use fuge_kinds, only: dp
-  use fuge_peak_search, only: find_peak, singular_peak
   use fuge_pressed_cells, only: allocate_cells, is_own_image, pressed_cells
   use fuge_pressed_line, only: check_line, pressed_line
   use fuge_pressure_rims, only: find_singular_rim
@@ -56,6 +55,7 @@ contains
   !> Ten arguments: the cells, the body, the measure, the result. Errors, `peak` untouched: those of
   !> `fuge_halfplane_stress` and `fuge_halfplane_tensor`; FUGE_ERR_OPTION for `measure`; FUGE_ERR_MEMORY.
   subroutine fuge_halfplane_peak(x, width, force, element, plane_state, poisson, measure, peak, info, symmetric)
+    use fuge_peak_search, only: find_peak, singular_peak
     real(dp), intent(in) :: x(:), width(:), force(:), poisson
     integer, intent(in) :: element, plane_state, measure
     type(fuge_stress_peak), intent(inout) :: peak
@@ -96,6 +96,7 @@ contains
   !> Errors, `peak` untouched: FUGE_ERR_OPTION for `plane_state` and `measure`; FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE
   !> for `poisson`; FUGE_ERR_MEMORY.
   subroutine fuge_smooth_peak(contact, plane_state, poisson, measure, peak, info)
+    use fuge_peak_search, only: find_peak
     type(fuge_smooth_contact), intent(in) :: contact
     integer, intent(in) :: plane_state, measure
     real(dp), intent(in) :: poisson

@@ -10,7 +10,6 @@ module fuge_halfspace_depths
   use fuge_grid_waves, only: grid_waves
   use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_grid, only: check_grid, halfspace_grid, periodic, FUGE_PERIODIC_X
-  use fuge_halfspace_mean_rows, only: mean_displacements, mean_stresses
   use fuge_halfspace_wave_factors, only: bytes_of_waves, wave_sums, wave_term
   use fuge_halfspace_wave_terms, only: displacement_terms, stress_terms
   use fuge_kinds, only: dp
@@ -338,6 +337,7 @@ contains
   !> The means along the rows at all depths, before a result is written, because they may fail: FUGE_ERR_MEMORY. 6
   !> `components` are stresses, 3 displacements.
   subroutine find_means(work, components, depth, info)
+    use fuge_halfspace_mean_rows, only: mean_displacements, mean_stresses
     type(grid_work), intent(inout) :: work
     integer, intent(in) :: components
     real(dp), intent(in) :: depth(:)

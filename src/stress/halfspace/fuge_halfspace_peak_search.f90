@@ -3,8 +3,6 @@ module fuge_halfspace_peak_search
   use fuge_area_field, only: add_area_field, area_field, new_area_field
   use fuge_elastic_moduli, only: check_poisson
   use fuge_kinds, only: dp
-  use fuge_peak_search, only: find_peak, singular_peak
-  use fuge_pressed_area, only: check_area, pressed_area
   use fuge_pressed_cells, only: allocate_cells, is_own_image, pressed_cells
   use fuge_pressure_rims, only: find_singular_rim
   use fuge_status, only: fuge_info, require_memory
@@ -48,6 +46,8 @@ contains
   !> Eleven arguments: the rectangles, the body, the measure, the result. Errors, `peak` untouched: those of
   !> `fuge_halfspace_stress`; FUGE_ERR_OPTION for `measure`; FUGE_ERR_MEMORY.
   subroutine fuge_halfspace_peak(x, y, width_x, width_y, force, poisson, measure, peak, info, symmetric_x, symmetric_y)
+    use fuge_peak_search, only: singular_peak
+    use fuge_pressed_area, only: check_area, pressed_area
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:), poisson
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
@@ -85,6 +85,8 @@ contains
 
   !> The search in the field of the area, which is used up.
   subroutine search(area, poisson, cells, measure, peak, info)
+    use fuge_peak_search, only: find_peak
+    use fuge_pressed_area, only: pressed_area
     type(pressed_area), intent(inout) :: area
     real(dp), intent(in) :: poisson
     type(pressed_cells), intent(in) :: cells
@@ -103,6 +105,7 @@ contains
 
   !> The rectangles of the area. Of one that is its own image but for rounding the image is left out.
   pure subroutine collect_cells(area, cells, info)
+    use fuge_pressed_area, only: pressed_area
     type(pressed_area), intent(in) :: area
     type(pressed_cells), intent(inout) :: cells
     type(fuge_info), intent(inout) :: info
@@ -130,6 +133,7 @@ contains
 
   !> Along each axis: 1 if the image of the rectangle lies on it but for rounding, -1 if it is this image, otherwise 0.
   pure function doubled_sides(area, k) result(side)
+    use fuge_pressed_area, only: pressed_area
     type(pressed_area), intent(in) :: area
     integer, intent(in) :: k
     integer :: side(2)

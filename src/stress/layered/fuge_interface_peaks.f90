@@ -4,7 +4,6 @@ module fuge_interface_peaks
   use fuge_kinds, only: dp
   use fuge_layer_stack, only: layer_stack
   use fuge_layered_body_type, only: fuge_layered_body
-  use fuge_layered_grid, only: layered_grid
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
   use fuge_stress_measures, only: fuge_principal_stresses
@@ -43,6 +42,7 @@ contains
   !>
   !> Nine arguments: the grid alone has four. Errors, peaks untouched: as for `fuge_layered_halfspace_stress_grid`.
   subroutine fuge_layered_halfspace_interfaces(body, nx, ny, spacing_x, spacing_y, force, boundary, peaks, info)
+    use fuge_layered_grid, only: layered_grid
     type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: nx, ny, boundary
     real(dp), intent(in) :: spacing_x, spacing_y, force(:)
@@ -62,6 +62,7 @@ contains
   !> `fuge_layered_halfspace_interfaces`; a principal stress may be that along the line. Errors, peaks untouched: as for
   !> `fuge_layered_halfplane_stress_grid`.
   subroutine fuge_layered_halfplane_interfaces(body, spacing, force, element, boundary, peaks, info)
+    use fuge_layered_grid, only: layered_grid
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: spacing, force(:)
     integer, intent(in) :: element, boundary
@@ -78,6 +79,7 @@ contains
   end subroutine fuge_layered_halfplane_interfaces
 
   subroutine find_interfaces(grid, body, force, peaks, info)
+    use fuge_layered_grid, only: layered_grid
     type(layered_grid), intent(inout) :: grid
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: force(:)

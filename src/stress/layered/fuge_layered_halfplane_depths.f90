@@ -11,7 +11,6 @@ module fuge_layered_halfplane_depths
   use fuge_halfplane_grid_checks, only: check_halfplane_grid
   use fuge_halfspace_depths, only: convolve_tables
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: find_layers, find_uniform, points_in_top, refuse_hats, require_finite
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_memory, only: check_memory
   use fuge_mixture_sums, only: bytes_of_sums, mixture_sums, PLACES_OF, WAVES_OF
@@ -57,6 +56,7 @@ contains
   !> FUGE_ERR_ELEMENT also for FUGE_HAT, FUGE_ERR_CALL_ORDER for a body that is not set, FUGE_ERR_GRID for a depth in a
   !> rigid base. Source: doc/theory_layers.md.
   subroutine fuge_layered_halfplane_stress_grid(body, spacing, force, element, boundary, depth, stress, info, below)
+    use fuge_layer_checks, only: find_layers, refuse_hats
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: spacing, force(:), depth(:)
     integer, intent(in) :: element, boundary
@@ -106,6 +106,7 @@ contains
   !> `fuge_layered_halfplane_stress_grid`. Source: as there.
   subroutine fuge_layered_halfplane_displacement_grid(body, spacing, force, element, boundary, depth, displacement, &
                                                       info, below)
+    use fuge_layer_checks, only: find_layers, refuse_hats, require_finite
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: spacing, force(:), depth(:)
     integer, intent(in) :: element, boundary
@@ -150,6 +151,7 @@ contains
 
   !> Fit the mixtures, compute the sums and transform the forces. FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED.
   subroutine start(work, body, spacing, force, boundary, depth, components, info)
+    use fuge_layer_checks, only: find_uniform, points_in_top
     type(grid_work), intent(inout) :: work
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: spacing, force(:), depth(:)

@@ -1,8 +1,6 @@
 !> Stresses and displacements at points of a body of layers in plane strain, under strips of pressure; as
 !> fuge_layered_halfspace_interior.
 module fuge_layered_halfplane_interior
-  use fuge_depth_mixture, only: depth_mixture, OF_ALONG, OF_DOWN, OF_NN, OF_SLOPE, OF_ZZ
-  use fuge_depth_panels, only: depth_panels
   use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
   use fuge_halfplane_influence, only: datum_length
   use fuge_halfplane_interior, only: check_points, displacement_factors, fuge_halfplane_displacement, &
@@ -10,8 +8,6 @@ module fuge_layered_halfplane_interior
   use fuge_kinds, only: dp
   use fuge_layer_checks, only: find_layers, refuse_hats, require_finite, start_points
   use fuge_layered_body_type, only: fuge_layered_body
-  use fuge_point_gaussians, only: point_gaussians, point_loads, PLAIN, SLOPE_X
-  use fuge_pressed_line, only: check_line, pressed_line
   use fuge_status, only: fuge_info, require_memory
   use fuge_stress_checks, only: check_result
   implicit none
@@ -103,6 +99,7 @@ contains
   !>
   !> Eleven arguments: those of the public procedures.
   subroutine check(body, x, width, force, element, px, pz, layer, info, below, symmetric)
+    use fuge_pressed_line, only: check_line, pressed_line
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: x(:), width(:), force(:), px(:), pz(:)
     integer, intent(in) :: element
@@ -127,6 +124,9 @@ contains
   !>
   !> Ten arguments: the cells, the points, the results.
   subroutine add_layers(body, x, width, force, layer, px, pz, values, info, symmetric)
+    use fuge_depth_mixture, only: depth_mixture
+    use fuge_depth_panels, only: depth_panels
+    use fuge_point_gaussians, only: point_gaussians, point_loads
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: x(:), width(:), force(:), px(:), pz(:)
     integer, intent(in) :: layer(:)
@@ -162,6 +162,8 @@ contains
 
   !> The three stresses, or two displacements, in the caller's units.
   pure function components_of(sums, mixture, reach, count) result(component)
+    use fuge_depth_mixture, only: depth_mixture, OF_ALONG, OF_DOWN, OF_NN, OF_SLOPE, OF_ZZ
+    use fuge_point_gaussians, only: point_gaussians, PLAIN, SLOPE_X
     type(point_gaussians), intent(in) :: sums
     type(depth_mixture), intent(in) :: mixture
     real(dp), intent(in) :: reach

@@ -13,7 +13,6 @@ module fuge_layered_halfspace_depths
     fuge_halfspace_stress_grid, DISPLACEMENT_KINDS, STRESS_KINDS
   use fuge_halfspace_grid, only: halfspace_grid, periodic, FUGE_PERIODIC_X
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: find_layers, find_uniform, points_in_top, require_finite
   use fuge_layered_body_type, only: fuge_layered_body
   use fuge_memory, only: check_memory
   use fuge_mixture_sums, only: bytes_of_sums, mixture_sums, CIRCLE_OF, PLACES_OF, WAVES_OF
@@ -64,6 +63,7 @@ contains
   !> doc/theory_layers.md.
   subroutine fuge_layered_halfspace_stress_grid(body, nx, ny, spacing_x, spacing_y, force, boundary, depth, stress, &
                                                 info, below)
+    use fuge_layer_checks, only: find_layers
     type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: nx, ny, boundary
     real(dp), intent(in) :: spacing_x, spacing_y, force(:), depth(:)
@@ -116,6 +116,7 @@ contains
   !> `fuge_layered_halfspace_stress_grid`. Source: as there.
   subroutine fuge_layered_halfspace_displacement_grid(body, nx, ny, spacing_x, spacing_y, force, boundary, depth, &
                                                       displacement, info, below)
+    use fuge_layer_checks, only: find_layers, require_finite
     type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: nx, ny, boundary
     real(dp), intent(in) :: spacing_x, spacing_y, force(:), depth(:)
@@ -171,6 +172,7 @@ contains
 
   !> Fit the mixtures, compute the sums and transform the forces. FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED.
   subroutine start(work, body, force, depth, components, info)
+    use fuge_layer_checks, only: find_uniform, points_in_top
     type(grid_work), intent(inout) :: work
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: force(:), depth(:)

@@ -4,14 +4,10 @@
 !> change; deeper all of it is a mixture of Gaussians (fuge_depth_panels), averaged over the rectangles
 !> (fuge_point_gaussians).
 module fuge_layered_halfspace_interior
-  use fuge_depth_mixture, only: depth_mixture, OF_ALONG, OF_DIFFERENCE, OF_DOWN, OF_SLOPE, OF_TT, OF_ZZ
-  use fuge_depth_panels, only: depth_panels
   use fuge_halfspace_interior, only: check_points, fuge_halfspace_displacement, fuge_halfspace_stress, given_symmetry
   use fuge_kinds, only: dp
   use fuge_layer_checks, only: find_layers, require_finite, start_points
   use fuge_layered_body_type, only: fuge_layered_body
-  use fuge_point_gaussians, only: point_gaussians, point_loads, CURVE_X, CURVE_Y, PLAIN, SLOPE_X, SLOPE_Y, TWIST
-  use fuge_pressed_area, only: check_area, pressed_area
   use fuge_status, only: fuge_info, require_memory
   use fuge_stress_checks, only: check_displacement_range, check_result
   implicit none
@@ -34,6 +30,7 @@ contains
   !> arguments: the order is that of the C interface.
   subroutine fuge_layered_halfspace_stress(body, x, y, width_x, width_y, force, px, py, pz, stress, info, below, &
                                            symmetric_x, symmetric_y)
+    use fuge_pressed_area, only: check_area
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:), px(:), py(:), pz(:)
     real(dp), intent(inout) :: stress(:, :)
@@ -72,6 +69,7 @@ contains
   !> of range. Source: as there. Fourteen arguments: as there.
   subroutine fuge_layered_halfspace_displacement(body, x, y, width_x, width_y, force, px, py, pz, displacement, info, &
                                                  below, symmetric_x, symmetric_y)
+    use fuge_pressed_area, only: check_area
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:), px(:), py(:), pz(:)
     real(dp), intent(inout) :: displacement(:, :)
@@ -110,6 +108,10 @@ contains
   !>
   !> Twelve arguments: the rectangles, the points, the results.
   subroutine add_layers(body, x, y, width_x, width_y, force, symmetric, layer, px, py, pz, values, info)
+    use fuge_depth_mixture, only: depth_mixture
+    use fuge_depth_panels, only: depth_panels
+    use fuge_point_gaussians, only: point_gaussians, point_loads
+    use fuge_pressed_area, only: pressed_area
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:), px(:), py(:), pz(:)
     logical, intent(in) :: symmetric(2)
@@ -141,6 +143,8 @@ contains
 
   !> The six stresses, or three displacements, in the caller's units.
   pure function components_of(sums, mixture, count) result(component)
+    use fuge_depth_mixture, only: depth_mixture, OF_ALONG, OF_DIFFERENCE, OF_DOWN, OF_SLOPE, OF_TT, OF_ZZ
+    use fuge_point_gaussians, only: point_gaussians, CURVE_X, CURVE_Y, PLAIN, SLOPE_X, SLOPE_Y, TWIST
     type(point_gaussians), intent(in) :: sums
     type(depth_mixture), intent(in) :: mixture
     integer, intent(in) :: count

@@ -7,7 +7,6 @@ module fuge_layered_peak_search
   use fuge_kinds, only: dp
   use fuge_layer_interior, only: is_upper_half
   use fuge_layered_body_type, only: fuge_layered_body
-  use fuge_layered_grid, only: layered_grid
   use fuge_peak_values, only: measure_all
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_OVERFLOW
   use fuge_stress_peak_type, only: check_measure
@@ -57,6 +56,7 @@ contains
   !> Ten arguments: the grid alone has four. Errors, `peak` untouched: those of `fuge_layered_halfspace_stress_grid`;
   !> FUGE_ERR_OPTION for `measure`; FUGE_ERR_OVERFLOW if no stress is finite.
   subroutine fuge_layered_halfspace_peak(body, nx, ny, spacing_x, spacing_y, force, boundary, measure, peak, info)
+    use fuge_layered_grid, only: layered_grid
     type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: nx, ny, boundary, measure
     real(dp), intent(in) :: spacing_x, spacing_y, force(:)
@@ -75,6 +75,7 @@ contains
   !> `body`, `spacing`, `force`, `element` and `boundary` as for `fuge_layered_halfplane_stress_grid`; `measure`, `peak`
   !> and errors as for `fuge_layered_halfspace_peak`.
   subroutine fuge_layered_halfplane_peak(body, spacing, force, element, boundary, measure, peak, info)
+    use fuge_layered_grid, only: layered_grid
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: spacing, force(:)
     integer, intent(in) :: element, boundary, measure
@@ -91,6 +92,7 @@ contains
   end subroutine fuge_layered_halfplane_peak
 
   subroutine search(grid, body, force, measure, peak, info)
+    use fuge_layered_grid, only: layered_grid
     type(layered_grid), intent(inout) :: grid
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: force(:)
@@ -139,6 +141,7 @@ contains
   !> The depths of all layers, both sides of each interface included, from the surface down; `number` of them, as many
   !> as there is room for in `at`.
   pure subroutine list_depths(grid, at, number)
+    use fuge_layered_grid, only: layered_grid
     type(layered_grid), intent(in) :: grid
     type(fuge_layer_peak), intent(inout) :: at(:)
     integer, intent(out) :: number
@@ -163,6 +166,7 @@ contains
 
   !> The greatest extent of the cells with a force.
   pure function extent_of(grid) result(extent)
+    use fuge_layered_grid, only: layered_grid
     type(layered_grid), intent(in) :: grid
     real(dp) :: extent
     integer :: high(2), k, low(2), place(2)
@@ -181,6 +185,7 @@ contains
   !> How many depths are tried between the sides of a layer, these included: at least three, but none between the
   !> surface and the first depth.
   pure function number_of_depths(grid, top, bottom) result(count)
+    use fuge_layered_grid, only: layered_grid
     type(layered_grid), intent(in) :: grid
     real(dp), intent(in) :: top, bottom
     integer :: count
@@ -199,6 +204,7 @@ contains
 
   !> Place them: at equal ratios from the first depth on.
   pure subroutine place_depths(grid, top, bottom, at)
+    use fuge_layered_grid, only: layered_grid
     type(layered_grid), intent(in) :: grid
     real(dp), intent(in) :: top, bottom
     type(fuge_layer_peak), intent(inout) :: at(:)
@@ -218,6 +224,7 @@ contains
 
   !> The first depth below the surface.
   pure function shallowest(grid) result(depth)
+    use fuge_layered_grid, only: layered_grid
     type(layered_grid), intent(in) :: grid
     real(dp) :: depth
 
@@ -226,6 +233,7 @@ contains
 
   !> Find the largest values at the depths, in their layers; -1 where none is finite.
   subroutine evaluate(grid, body, measure, at, info)
+    use fuge_layered_grid, only: layered_grid
     type(layered_grid), intent(in) :: grid
     type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: measure
@@ -257,6 +265,7 @@ contains
 
   !> Search between the neighbours of depth `k` if it is a maximum that may be larger than the `best`.
   subroutine refine(grid, body, measure, at, k, best, info)
+    use fuge_layered_grid, only: layered_grid
     type(layered_grid), intent(in) :: grid
     type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: measure, k
@@ -328,6 +337,7 @@ contains
   !> The maximum between the depths `upper` and `lower` by R. P. Brent's method (Algorithms for Minimization without
   !> Derivatives, 1973, chapter 5), from `start` between them.
   subroutine maximise(grid, body, measure, upper, lower, start, best, info)
+    use fuge_layered_grid, only: layered_grid
     type(layered_grid), intent(in) :: grid
     type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: measure

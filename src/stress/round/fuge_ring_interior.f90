@@ -10,7 +10,6 @@ module fuge_ring_interior
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_ring_field, only: new_ring_rules, ring_field, ring_rules
-  use fuge_ring_influence, only: check_rings
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_OVERFLOW
   use fuge_stress_checks, only: check_displacement_range, check_forces
   implicit none
@@ -83,6 +82,7 @@ contains
 
   !> Refuse radii of no rings, forces that are not finite or not one for each ring, and pressures out of range.
   pure subroutine check_ring_forces(radius, force, info)
+    use fuge_ring_influence, only: check_rings
     real(dp), intent(in) :: radius(:), force(:)
     type(fuge_info), intent(inout) :: info
     integer :: k

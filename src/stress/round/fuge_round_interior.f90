@@ -1,6 +1,5 @@
 !> Stresses and displacements in a half-space under a round punch.
 module fuge_round_interior
-  use fuge_abel_transform, only: abel_transform
   use fuge_axial_checks, only: check_axial_points
   use fuge_axial_field, only: axial_displacement, axial_stress, surface_field, INTEGRALS, POTENTIAL, SPREAD
   use fuge_constants, only: LARGEST_EXPONENT, PI
@@ -8,7 +7,6 @@ module fuge_round_interior
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_round_contact_type, only: fuge_round_contact
-  use fuge_round_field, only: new_round_rules, round_field, round_rules
   use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW
   implicit none
   private
@@ -34,6 +32,8 @@ contains
   !> Errors, stress untouched: FUGE_ERR_MODULUS, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH for a negative pr,
   !> FUGE_ERR_GRID for pz < 0, FUGE_ERR_OVERFLOW for points beyond 1e60 radii.
   pure subroutine fuge_round_stress(contact, poisson, pr, pz, stress, info)
+    use fuge_abel_transform, only: abel_transform
+    use fuge_round_field, only: new_round_rules, round_rules
     type(fuge_round_contact), intent(in) :: contact
     real(dp), intent(in) :: poisson, pr(:), pz(:)
     real(dp), intent(inout) :: stress(:, :)
@@ -68,6 +68,8 @@ contains
   !> `displacement` (2, points): away from the axis, and into the body; length. They vanish far away.
   !> Errors, displacement untouched: those of `fuge_round_stress`.
   pure subroutine fuge_round_displacement(contact, young, poisson, pr, pz, displacement, info)
+    use fuge_abel_transform, only: abel_transform
+    use fuge_round_field, only: new_round_rules, round_rules
     type(fuge_round_contact), intent(in) :: contact
     real(dp), intent(in) :: young, poisson, pr(:), pz(:)
     real(dp), intent(inout) :: displacement(:, :)
@@ -109,6 +111,8 @@ contains
 
   !> The integrals of `fuge_axial_field` in units of E*/pi and the radius of the contact.
   pure function field_at(contact, transform, rules, pr, pz) result(field)
+    use fuge_abel_transform, only: abel_transform
+    use fuge_round_field, only: round_field, round_rules
     type(fuge_round_contact), intent(in) :: contact
     type(abel_transform), intent(in) :: transform
     type(round_rules), intent(in) :: rules
@@ -129,6 +133,8 @@ contains
 
   !> The same at the surface.
   pure function surface_field_at(contact, transform, rules, pr) result(field)
+    use fuge_abel_transform, only: abel_transform
+    use fuge_round_field, only: round_field, round_rules
     type(fuge_round_contact), intent(in) :: contact
     type(abel_transform), intent(in) :: transform
     type(round_rules), intent(in) :: rules

@@ -1,11 +1,9 @@
 !> The largest stress in a half-space about an axis, under rings and under round punches.
 module fuge_round_peak_search
-  use fuge_abel_transform, only: abel_transform
   use fuge_component_field, only: component_field
   use fuge_constants, only: PI
   use fuge_elastic_moduli, only: check_poisson
   use fuge_kinds, only: dp
-  use fuge_peak_search, only: find_peak, singular_peak
   use fuge_pressed_cells, only: allocate_cells, pressed_cells
   use fuge_pressure_rims, only: find_singular_rim
   use fuge_ring_interior, only: fuge_ring_stress
@@ -51,6 +49,7 @@ contains
   !> than six rings those of four; edges of annuli with less than twelve rings are not judged. Without forces value,
   !> place and tensor are 0. Errors, `peak` untouched: those of `fuge_ring_stress`; FUGE_ERR_OPTION for `measure`.
   subroutine fuge_ring_peak(radius, force, poisson, measure, peak, info)
+    use fuge_peak_search, only: find_peak, singular_peak
     real(dp), intent(in) :: radius(:), force(:), poisson
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
@@ -98,6 +97,7 @@ contains
   !> and tensor are 0. Errors, `peak` untouched: FUGE_ERR_OPTION for `measure`; FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE
   !> for `poisson`; FUGE_ERR_MEMORY.
   subroutine fuge_round_peak(contact, poisson, measure, peak, info)
+    use fuge_peak_search, only: find_peak, singular_peak
     type(fuge_round_contact), intent(in) :: contact
     real(dp), intent(in) :: poisson
     integer, intent(in) :: measure
@@ -127,6 +127,7 @@ contains
 
   !> Where the pressure of a round punch is infinite: 0 in a tip, the radius of an edge, -1 nowhere.
   pure function radius_of_singularity(contact) result(radius)
+    use fuge_abel_transform, only: abel_transform
     type(fuge_round_contact), intent(in) :: contact
     real(dp) :: radius
     type(abel_transform) :: transform

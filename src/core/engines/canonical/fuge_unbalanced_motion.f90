@@ -1,6 +1,5 @@
 !> The motion along which nothing holds the bodies, where no contact forces can be in equilibrium with the resultants.
 module fuge_unbalanced_motion
-  use fuge_canonical_problem, only: canonical_problem, make_canonical
   use fuge_kinds, only: dp
   use fuge_problem_type, only: check_problem, copy_problem, fuge_problem
   use fuge_status, only: fuge_info, require_memory, FUGE_ERR_NO_EQUILIBRIUM
@@ -18,6 +17,7 @@ contains
   !> motions and those on springs are zero. The size has no meaning. Errors: those of the check of the problem,
   !> FUGE_ERR_MODES, FUGE_ERR_MEMORY.
   subroutine fuge_find_unbalanced_motion(problem, motion, info)
+    use fuge_canonical_problem, only: canonical_problem, make_canonical
     type(fuge_problem), intent(in) :: problem
     real(dp), allocatable, intent(inout) :: motion(:)
     type(fuge_info), intent(out) :: info

@@ -1,26 +1,16 @@
 !> The exact course of a contact as its load changes, without load steps: as the load of the plain problem grows
 !> from zero, or from one general problem to another.
 module fuge_contact_path
-  use fuge_active_set_engine, only: solve_by_active_set
-  use fuge_canonical_problem, only: canonical_problem, make_canonical
-  use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_kkt_factor, only: kkt_factor
   use fuge_matrix_checks, only: check_largest, check_pairs
   use fuge_matrix_operator, only: fuge_dense_operator
-  use fuge_matrix_survey, only: matrix_survey
-  use fuge_monitor_type, only: monitor_relay
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
-  use fuge_parametric_pivoting, only: follow_line
-  use fuge_path_certificate, only: path_certificate
-  use fuge_path_position, only: load_line, path_position, position_at
   use fuge_path_type, only: fuge_path, move_path, trim_path
   use fuge_problem_bounds, only: begins_with_one
   use fuge_problem_type, only: fuge_problem, check_problem, check_load, copy_problem, set_problem
-  use fuge_spring_matrix, only: extend_problem, spring_matrix
   use fuge_status, only: composed_message, fuge_info, fuge_status_text, report, require_memory, FUGE_DONE, &
     FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED, FUGE_WARN_RESIDUAL
   implicit none
@@ -42,6 +32,7 @@ contains
   !> those that touch first have entries at zero load. Errors: as for a solve, and FUGE_ERR_ITERATION_LIMIT after more
   !> events than 50 for each point.
   subroutine fuge_load_path(operator, gap, load, path, info)
+    use fuge_path_position, only: load_line
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap(:), load
     type(fuge_path), intent(inout) :: path
@@ -117,6 +108,7 @@ contains
 
   !> Compliances and springs on motions become parts of a matrix, and the path is that of the problem without them.
   subroutine follow_with_springs(operator, problem, finish, path, info)
+    use fuge_spring_matrix, only: extend_problem, spring_matrix
     type(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: finish(:)
@@ -137,6 +129,7 @@ contains
   !> From the resultants and prescribed motions of a checked problem to those of `finish` (m). `operator` and `problem`
   !> of the caller, `with_springs` and `extended` the same with springs as parts of the matrix.
   subroutine follow_to_finish(operator, problem, with_springs, extended, finish, path, info)
+    use fuge_path_position, only: load_line
     type(fuge_dense_operator), intent(in) :: operator, with_springs
     type(fuge_problem), intent(in) :: problem, extended
     real(dp), intent(in) :: finish(:)
@@ -172,6 +165,7 @@ contains
 
   !> Refuse a matrix that is out of range or by whose coefficients a pair of points gains energy.
   pure subroutine check_matrix(operator, load, info)
+    use fuge_matrix_survey, only: matrix_survey
     type(fuge_dense_operator), intent(in) :: operator
     real(dp), intent(in) :: load
     type(fuge_info), intent(inout) :: info
@@ -184,6 +178,7 @@ contains
 
   !> Refuse an end that no path leads to.
   pure subroutine check_finish(operator, problem, finish, info)
+    use fuge_matrix_survey, only: matrix_survey
     type(fuge_dense_operator), intent(in) :: operator
     real(dp), intent(in) :: finish(:)
     type(fuge_problem), intent(in) :: problem
@@ -231,6 +226,10 @@ contains
   !> and `problem` of the caller, with which the path is certified, `with_springs` and `extended` as for
   !> `follow_to_finish`.
   subroutine follow(operator, problem, with_springs, extended, line, path, info)
+    use fuge_canonical_problem, only: canonical_problem, make_canonical
+    use fuge_parametric_pivoting, only: follow_line
+    use fuge_path_certificate, only: path_certificate
+    use fuge_path_position, only: load_line, path_position
     type(fuge_dense_operator), intent(in) :: operator, with_springs
     type(fuge_problem), intent(in) :: problem, extended
     type(load_line), intent(inout) :: line
@@ -272,6 +271,12 @@ contains
   !> The solution at the start. The datum of the gaps is subtracted from those of the problem and, with the datum of
   !> alpha, from its translation.
   subroutine find_start(line, canonical, position, info)
+    use fuge_active_set_engine, only: solve_by_active_set
+    use fuge_canonical_problem, only: canonical_problem
+    use fuge_contact_solution, only: allocate_solution, contact_solution
+    use fuge_kkt_factor, only: kkt_factor
+    use fuge_monitor_type, only: monitor_relay
+    use fuge_path_position, only: load_line, path_position, position_at
     type(load_line), intent(in) :: line
     type(canonical_problem), intent(inout) :: canonical
     type(path_position), intent(out) :: position
@@ -303,6 +308,7 @@ contains
 
   !> Is it the plain problem without a load, where the bodies just touch?
   pure function starts_unloaded(canonical)
+    use fuge_canonical_problem, only: canonical_problem
     type(canonical_problem), intent(in) :: canonical
     logical :: starts_unloaded
 
@@ -326,6 +332,7 @@ contains
 
   !> The largest violation of all pieces is the residual of the path; above the tolerance of a solve it is a warning.
   subroutine report_certificate(certificate, info)
+    use fuge_path_certificate, only: path_certificate
     type(path_certificate), intent(in) :: certificate
     type(fuge_info), intent(inout) :: info
     type(fuge_options) :: defaults

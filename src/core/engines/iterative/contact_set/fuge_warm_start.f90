@@ -41,9 +41,13 @@ module fuge_warm_start
     real(dp) :: fingerprint(6) = 0.0_dp
   end type load_step
 
+  !> Places of the last solution and of the one before.
+  integer, parameter :: NEWEST = 1, OLDER = 2
+
   !> The last two solutions of a solver, and what the last solve from coarser grids cost.
   type, public :: load_history
-    type(load_step), private :: last, before
+    !> An array, because gfortran 12 frees one component of a type alone where it frees what holds a `class`.
+    type(load_step), private :: kept(2)
     !> Relative error at which the finest grid started after the coarser ones, and products: on the coarser grids,
     !> and on the finest one for each power of ten of the error.
     real(dp), private :: cold_error = huge(1.0_dp), coarse_products = 0.0_dp, products_per_decade = 1.0_dp
@@ -95,8 +99,8 @@ contains
   pure subroutine forget(self)
     class(load_history), intent(inout) :: self
 
-    call clear(self%last)
-    call clear(self%before)
+    call clear(self%kept(NEWEST))
+    call clear(self%kept(OLDER))
     self%cold_error = huge(1.0_dp)
     self%cold_products = huge(1)
     self%greatest_error = USELESS
@@ -144,8 +148,8 @@ contains
     end do
     step%motion = solution%motion
     step%fingerprint = fingerprint(problem, space)
-    if (differs(step, self%last)) call move_step(self%last, self%before)
-    call move_step(step, self%last)
+    if (differs(step, self%kept(NEWEST))) call move_step(self%kept(NEWEST), self%kept(OLDER))
+    call move_step(step, self%kept(NEWEST))
   end subroutine store
 
   subroutine store_chunk(self, k, first, last)
@@ -253,7 +257,7 @@ contains
     integer :: stat
 
     if (allocated(start)) deallocate (start)
-    if (.not. space%everywhere(fits(self%last, problem))) return
+    if (.not. space%everywhere(fits(self%kept(NEWEST), problem))) return
     call find_steps(self, problem, space, steps, extrapolate)
     if (self%step_length >= self%too_long) then
       self%too_long = LONGER*self%too_long
@@ -265,15 +269,15 @@ contains
       return
     end if
     if (extrapolate) then
-      pass%last => self%last%values
-      pass%before => self%before%values
+      pass%last => self%kept(NEWEST)%values
+      pass%before => self%kept(OLDER)%values
       pass%force => start
       pass%steps = steps
-      pass%greatest = space%largest(maxval(self%last%values))
+      pass%greatest = space%largest(maxval(self%kept(NEWEST)%values))
       pass%two_sided = allocated(problem%gap_upper)
       call pass%run(size(start), 0)
     else
-      start = load_factor(self%last, problem)*self%last%values
+      start = load_factor(self%kept(NEWEST), problem)*self%kept(NEWEST)%values
       if (.not. allocated(problem%gap_upper)) start = max(start, 0.0_dp)
     end if
   end subroutine predict
@@ -305,21 +309,21 @@ contains
     real(dp), intent(out) :: steps
     logical, intent(out) :: extrapolate
     real(dp), dimension(problem%mode_count()) :: new, last, before, scale
-    real(dp) :: sums(size(self%last%fingerprint))
+    real(dp) :: sums(size(self%kept(NEWEST)%fingerprint))
 
     steps = 0.0_dp
     extrapolate = .false.
     self%step_length = -1.0_dp
     sums = fingerprint(problem, space)
-    if (problem%mode_count() < 1 .or. any(abs(self%last%fingerprint - sums) > 0.0_dp)) return
-    last = controls(problem, self%last%resultant, self%last%motion)
+    if (problem%mode_count() < 1 .or. any(abs(self%kept(NEWEST)%fingerprint - sums) > 0.0_dp)) return
+    last = controls(problem, self%kept(NEWEST)%resultant, self%kept(NEWEST)%motion)
     new = controls(problem, problem%resultant, problem%motion)
     scale = max(abs(last), abs(new))
     where (.not. scale > 0.0_dp) scale = 1.0_dp
     new = new/scale - last/scale
-    if (.not. space%everywhere(fits(self%before, problem))) return
-    if (any(abs(self%before%fingerprint - sums) > 0.0_dp)) return
-    before = controls(problem, self%before%resultant, self%before%motion)
+    if (.not. space%everywhere(fits(self%kept(OLDER), problem))) return
+    if (any(abs(self%kept(OLDER)%fingerprint - sums) > 0.0_dp)) return
+    before = controls(problem, self%kept(OLDER)%resultant, self%kept(OLDER)%motion)
     ! The motions of the last two solves may be far apart where the new one only has resultants, and vice versa.
     if (any(abs(before)/sqrt(huge(steps)) > scale)) return
     before = last/scale - before/scale
