@@ -24,7 +24,7 @@ function(fuge_compat_add_program name)
       VERBATIM)
     list(APPEND sources "${source}")
     string(APPEND FUGE_COMPAT_USES
-      "    use ${module}_suite, only: run_${number} => fuge_compat_run\n")
+      "    use ${module}, only: run_${number} => fuge_compat_run\n")
     string(APPEND FUGE_COMPAT_CALLS "    call run_${number}()\n")
   endforeach()
   configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/driver.f90.in" "${generated}/driver.f90" @ONLY)

@@ -1,5 +1,6 @@
-! Translates a .pf file into Fortran: each directive becomes a call, and a second
-! module, <name>_suite, runs the tests. Whatever it does not know it refuses.
+! Translates a .pf file into Fortran: each directive becomes a call, and the module gets a
+! last procedure, the only public one, which runs its tests: what the module uses is then
+! not written into its module file. Whatever it does not know it refuses.
 module pf_translation
   use, intrinsic :: iso_fortran_env, only: iostat_end
   use pf_module_names, only: module_names, read_names
@@ -29,6 +30,8 @@ module pf_translation
     type(module_names) :: names
     character(len=:), allocatable :: statement ! as far as it has been read
     integer :: statement_line = 0 ! the line on which it begins
+    logical :: is_private = .false. ! all names but that of the procedure that runs the tests
+    logical :: has_ended = .false. ! the module
     integer :: in = -1, out = -1
     integer :: line = 0 ! number of lines read
     integer :: written = 0
@@ -62,7 +65,6 @@ contains
     else
       call translate_lines(this)
       if (.not. allocated(this%error)) call check_whole_file(this)
-      if (.not. allocated(this%error)) call write_suite(this)
       call close_output(this)
       if (allocated(this%error)) error = this%error
     end if
@@ -128,9 +130,38 @@ contains
     else
       call note_statement(this, lower(code(first:)))
       call check_names(this, lower(code(first:)))
-      call put(this, line)
+      call put_statement(this, line, lower(code(first:)))
     end if
   end subroutine translate_line
+
+  ! Adds what runs the tests where the module begins, where its declarations begin, and where it ends.
+  subroutine put_statement(this, line, statement)
+    type(translation), intent(inout) :: this
+    character(len=*), intent(in) :: line, statement
+    character(len=:), allocatable :: bare
+
+    bare = trim(statement(:index(statement//'!', '!') - 1))
+    if (.not. allocated(this%module_name) .or. this%has_ended) then
+      call put(this, line)
+    else if (bare == 'module '//this%module_name) then
+      call put(this, line)
+      call put(this, '  use funit, only: fuge_compat_run_test')
+      call put_position(this, this%line + 1, this%path)
+    else if (bare == 'implicit none' .and. .not. this%is_private) then
+      call put(this, line)
+      call put(this, '  private')
+      call put(this, '  public :: fuge_compat_run')
+      call put_position(this, this%line + 1, this%path)
+      this%is_private = .true.
+    else if (index(bare, 'end module') == 1) then
+      call put_runner(this)
+      call put_position(this, this%line, this%path)
+      call put(this, line)
+      this%has_ended = .true.
+    else
+      call put(this, line)
+    end if
+  end subroutine put_statement
 
   ! The line with its string constants, comment text and tabs out of the way.
   pure function masked(line) result(code)
@@ -355,6 +386,10 @@ contains
       call refuse(this, 'no module')
     else if (size(this%tests) == 0) then
       call refuse(this, 'no tests')
+    else if (.not. this%is_private) then
+      call refuse(this, 'no "implicit none", after which the tests are made private')
+    else if (.not. this%has_ended) then
+      call refuse(this, 'no "end module", before which the procedure that runs the tests has its place')
     end if
   end subroutine check_whole_file
 
@@ -376,37 +411,18 @@ contains
     this%error = this%path//':'//decimal(number)//': '//reason
   end subroutine refuse
 
-  ! One module that knows the tests; the driver calls its only public procedure.
-  subroutine write_suite(this)
+  ! The driver calls this procedure, the last one of the module.
+  subroutine put_runner(this)
     type(translation), intent(inout) :: this
     integer :: i
 
     call put_position(this, this%written + 2, this%out_path)
-    call put(this, 'module '//this%module_name//'_suite')
-    call put(this, '  use funit, only: fuge_compat_run_test')
-    if (this%before /= ' ') call put_use(this, this%before)
-    if (this%after /= ' ') call put_use(this, this%after)
-    do i = 1, size(this%tests)
-      call put_use(this, this%tests(i))
-    end do
-    call put(this, '  implicit none')
-    call put(this, '  private')
-    call put(this, '  public :: fuge_compat_run')
-    call put(this, 'contains')
     call put(this, '  subroutine fuge_compat_run()')
     do i = 1, size(this%tests)
       call put_test(this, trim(this%tests(i)))
     end do
     call put(this, '  end subroutine fuge_compat_run')
-    call put(this, 'end module '//this%module_name//'_suite')
-  end subroutine write_suite
-
-  subroutine put_use(this, name)
-    type(translation), intent(inout) :: this
-    character(len=*), intent(in) :: name
-
-    call put(this, '  use '//this%module_name//', only: '//trim(name))
-  end subroutine put_use
+  end subroutine put_runner
 
   subroutine put_test(this, name)
     type(translation), intent(inout) :: this
@@ -426,7 +442,7 @@ contains
     integer, intent(in) :: line
     character(len=*), intent(in) :: path
 
-    call put(this, '#line '//decimal(line)//' "'//path//'"')
+    call put(this, '# '//decimal(line)//' "'//path//'"')
   end subroutine put_position
 
   subroutine put(this, text)
