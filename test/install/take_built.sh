@@ -9,7 +9,7 @@ for word; do
   case $previous$word in
     -o?*) object=$word ;;
     -J?*) modules=${word#-J} ;;
-    -J | -o | -I* | -c | -fPIC | -ffree-form | -fimplicit-none | -fpreprocessed | -Werror*) ;;
+    -J | -o | -I* | -c | -fPIC | -ffree-form | -fimplicit-none | -nocpp | -Werror*) ;;
     -*) flags="$flags $word" ;;
     *.f90) file=$word ;;
   esac
@@ -17,7 +17,7 @@ for word; do
 done
 
 # Where fuge is a part of another project it is in the folder fuge of its build; fpm has a name for the object of its own.
-case $file in
+case $object in
   *CMakeFiles/*)
     name=${object#fuge/}
     modules_built=$BUILT/${modules#fuge/}
