@@ -7,7 +7,10 @@ program compare_engines
   use, intrinsic :: iso_fortran_env, only: output_unit
   use engine_judge, only: engine_verdict, judge_scene, judge_steps, solve_scene_by
   use engine_scene_type, only: engine_scene
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
+  use fuge_kinds, only: dp
+  use fuge_options_type, only: FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
+  use fuge_problem_type, only: fuge_solution
+  use fuge_status, only: fuge_info
   use random_scenes, only: draw_scene
   implicit none
 

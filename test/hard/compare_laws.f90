@@ -5,10 +5,12 @@
 !> problem and all answers. It ends with an error if an engine is wrong.
 program compare_laws
   use, intrinsic :: iso_fortran_env, only: output_unit
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_solution, FUGE_ACTIVE_SET, FUGE_ITERATIVE, &
-    FUGE_TABLEAU, FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_RESIDUAL
-  use general_reference, only: solve_general
+  use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_options_type, only: fuge_options, FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
+  use fuge_problem_type, only: fuge_solution
+  use fuge_status, only: fuge_info, FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_RESIDUAL
+  use general_reference, only: solve_general
   use law_judge, only: judge_law, know_law, known_law, law_verdict
   use random_laws, only: draw_laws, law_scene
   implicit none

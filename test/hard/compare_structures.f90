@@ -4,7 +4,8 @@
 !> active_set (the default) or iterative. It ends with an error if the engine is wrong.
 program compare_structures
   use, intrinsic :: iso_fortran_env, only: output_unit
-  use fuge, only: dp => fuge_dp, FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
+  use fuge_kinds, only: dp
+  use fuge_options_type, only: FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
   use one_way_structures, only: one_way_structure
   use random_structures, only: draw_structure
   use structure_judge, only: judge_structure, structure_verdict

@@ -2,8 +2,13 @@
 !> alone, and on grids by FFT.
 module corner_scenes
   use engine_scene_type, only: engine_scene
-  use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_halfspace_operator, fuge_info, FUGE_FREE, FUGE_MEAN, &
-    FUGE_PERIODIC, FUGE_PERIODIC_X
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
+  use fuge_halfplane_influence, only: FUGE_MEAN
+  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
+  use fuge_halfspace_fft, only: fuge_halfspace_operator
+  use fuge_halfspace_grid, only: FUGE_PERIODIC_X
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info
   use influence_matrices, only: matrix_of, products_only
   implicit none
   private

@@ -5,10 +5,14 @@
 module engine_judge
   use engine_scene_type, only: engine_scene
   use engine_stiffness, only: find_stiffness, leverage_of
-  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
-    fuge_solver, FUGE_ACTIVE_SET, FUGE_DONE, FUGE_ITERATIVE, FUGE_WARN_ILL_CONDITIONED, &
-    FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE
+  use fuge_kinds, only: dp
+  use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
+  use fuge_options_type, only: fuge_options, FUGE_ACTIVE_SET, FUGE_ITERATIVE
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE, &
+    FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
   use general_reference, only: general_violation, is_excluded, is_prescribed, modes_of, play_of
   implicit none
   private

@@ -1,6 +1,8 @@
 !> A contact problem that two engines solve: its matrix, and for the iteration perhaps an operator of the same body.
 module engine_scene_type
-  use fuge, only: dp => fuge_dp, fuge_operator, fuge_problem
+  use fuge_kinds, only: dp
+  use fuge_operator_type, only: fuge_operator
+  use fuge_problem_type, only: fuge_problem
   implicit none
   private
 

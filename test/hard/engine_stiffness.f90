@@ -2,7 +2,8 @@
 !> can be equal to.
 module engine_stiffness
   use engine_scene_type, only: engine_scene
-  use fuge, only: dp => fuge_dp, fuge_problem
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem
   use general_reference, only: is_excluded, is_prescribed, modes_of, play_of
   implicit none
   private

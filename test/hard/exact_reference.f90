@@ -4,7 +4,8 @@
 !> From the contact set of an answer on, points of the wrong sign are exchanged one at a time, the worst first.
 module exact_reference
   use, intrinsic :: iso_fortran_env, only: qp => real128
-  use fuge, only: dp => fuge_dp, fuge_problem, fuge_solution
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem, fuge_solution
   use general_reference, only: is_excluded, is_prescribed, modes_of, play_of
   implicit none
   private

@@ -4,8 +4,8 @@
 !> terminal, by default that of the active set.
 program force_error_table
   use, intrinsic :: iso_fortran_env, only: output_unit
-  use fuge, only: FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
   use fuge_number_text, only: text
+  use fuge_options_type, only: FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
   use hard_conditions, only: KINDS, KIND_NAMES
   use hard_estimates, only: estimate_counts, judge_problems
   implicit none

@@ -4,7 +4,8 @@
 !> evenly spread, one small one, or half of them small.
 module hard_conditions
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_problem
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem
   use general_reference, only: draw
   implicit none
   private

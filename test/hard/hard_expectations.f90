@@ -1,8 +1,11 @@
 !> What the hard tests expect of an answer; as in `expectations`, '' tells that it is so.
 module hard_expectations
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_DONE, FUGE_TABLEAU
-  use fuge_number_text, only: text
   use expectations, only: add_excess, add_words, REPORT_LENGTH, unexpected
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_options_type, only: FUGE_ACTIVE_SET, FUGE_TABLEAU
+  use fuge_problem_type, only: fuge_solution
+  use fuge_status, only: fuge_info, FUGE_DONE
   use hard_run, only: force_error, own_violation, solve_scene
   use hard_scenes, only: hard_scene
   implicit none

@@ -5,10 +5,12 @@
 !> gap = c - alpha F + R q and w = R^T F.
 module hard_general
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_solution, &
-    FUGE_ACTIVE_SET, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_ILL_CONDITIONED, &
-    FUGE_WARN_NOT_UNIQUE
+  use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_options_type, only: fuge_options, FUGE_ACTIVE_SET
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_ILL_CONDITIONED, &
+    FUGE_WARN_NOT_UNIQUE
   use general_reference, only: infinity, integers, solve_general
   use influence_matrices, only: integer_bed
   implicit none

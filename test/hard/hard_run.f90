@@ -1,6 +1,10 @@
 !> Solves a hard scene by one engine, and measures the errors of the answer.
 module hard_run
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_solution, fuge_solver
+  use fuge_kinds, only: dp
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info
   use general_reference, only: solve_with
   use hard_scenes, only: hard_scene
   use one_sided_reference, only: length_of, violation

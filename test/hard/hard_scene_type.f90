@@ -1,6 +1,7 @@
 !> A hard case as data: a contact problem with one translation and one-sided points, and what is known of its answer.
 module hard_scene_type
-  use fuge, only: dp => fuge_dp, FUGE_DONE
+  use fuge_kinds, only: dp
+  use fuge_status, only: FUGE_DONE
   implicit none
   private
 

@@ -5,13 +5,14 @@
 !> rounds: F is the exact answer of the data as stored, however ill-conditioned alpha is.
 module hard_scenes
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_halfplane_matrix, fuge_info, &
-    FUGE_ERR_NOT_DEFINITE, FUGE_MEAN, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
+  use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_MEAN
+  use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, FUGE_ERR_NOT_DEFINITE, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
   use general_reference, only: draw, integers
+  use hard_scene_type, only: hard_scene, from_answer, from_data, set_answer
   use influence_matrices, only: cell_middles, coupled_springs, halfplane, integer_bed, overlapping_halfplane, &
     ring_of_springs, string, tridiagonal
-  use hard_scene_type, only: hard_scene, from_answer, from_data, set_answer
   implicit none
   private
 

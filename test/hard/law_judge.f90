@@ -4,10 +4,12 @@
 !> one.
 module law_judge
   use, intrinsic :: iso_fortran_env, only: qp => real128
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_options, fuge_problem, fuge_solution, FUGE_DONE, &
-    FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_UNSUPPORTED, FUGE_ITERATIVE, &
-    FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
+  use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_options_type, only: fuge_options, FUGE_ITERATIVE
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE, &
+    FUGE_ERR_UNSUPPORTED, FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
   use general_reference, only: solve_general
   use law_margins, only: carried_margin
   use law_oracle, only: find_bounds, law_answer, law_bounds, solve_law

@@ -1,7 +1,7 @@
 !> Whether limited forces can carry resultants, and how far these are within what they carry, from the extreme motions.
 module law_margins
   use, intrinsic :: iso_fortran_env, only: qp => real128
-  use fuge, only: fuge_problem
+  use fuge_problem_type, only: fuge_problem
   use law_programs, only: limits_of, list_motions, modes_of_free, NONE
   implicit none
   private

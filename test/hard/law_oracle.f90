@@ -1,7 +1,8 @@
 !> Answers to problems with laws of points in quadruple precision, and how far other answers may be from them.
 module law_oracle
   use, intrinsic :: iso_fortran_env, only: qp => real128
-  use fuge, only: dp => fuge_dp, fuge_problem
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem
   use general_reference, only: is_prescribed, modes_of
   use interior_points, only: exchange, find_interior, largest_of, solve_consistent, NEGLIGIBLE
   use law_programs, only: box_program, compliance_of, gradient_of, is_definite, rank_of, set_equations, set_program, &

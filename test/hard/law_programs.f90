@@ -5,7 +5,8 @@
 !> variable of either sign.
 module law_programs
   use, intrinsic :: iso_fortran_env, only: qp => real128
-  use fuge, only: dp => fuge_dp, fuge_problem
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem
   use general_reference, only: is_excluded, is_prescribed, modes_of, play_of
   implicit none
   private

@@ -2,8 +2,13 @@
 module proof_judge
   use, intrinsic :: iso_fortran_env, only: int64, qp => real128
   use exact_reference, only: solve_exactly
-  use fuge, dp => fuge_dp
   use fuge_heap_sort, only: heap_sort
+  use fuge_kinds, only: dp
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_proof_type, only: fuge_proof
+  use fuge_solution_proof, only: fuge_prove
+  use fuge_status, only: fuge_info
   use general_reference, only: solve_general
   use hard_conditions, only: random_problem
   use whole_number_problems, only: draw_whole_problem, whole_problem

@@ -3,7 +3,7 @@
 !> proof_table [number of problems of whole numbers, 20000 by default] writes it to the terminal.
 program proof_table
   use, intrinsic :: iso_fortran_env, only: output_unit
-  use fuge, dp => fuge_dp
+  use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use hard_conditions, only: KINDS
   use proof_judge, only: judge_random_proofs, judge_whole_proofs, median_of, proof_counts, MOST_DECIMALS

@@ -2,9 +2,14 @@
 module random_bodies
   use, intrinsic :: iso_fortran_env, only: int64
   use engine_scene_type, only: engine_scene
-  use fuge, only: dp => fuge_dp, fuge_halfplane_matrix, fuge_halfplane_operator, fuge_halfspace_matrix, &
-    fuge_halfspace_operator, fuge_info, FUGE_CENTRE, FUGE_FREE, FUGE_MEAN, FUGE_PERIODIC, FUGE_PERIODIC_X, &
-    FUGE_PERIODIC_Y
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
+  use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN
+  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
+  use fuge_halfspace_fft, only: fuge_halfspace_operator
+  use fuge_halfspace_grid, only: FUGE_PERIODIC_X, FUGE_PERIODIC_Y
+  use fuge_halfspace_influence, only: fuge_halfspace_matrix
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info
   use general_reference, only: draw, integers
   use influence_matrices, only: matrix_of, products_only
   use random_draws, only: chance, decimal, one_of, uniform

@@ -1,7 +1,8 @@
 !> Random problems of one to twelve points with every mixture of laws. The number of a problem says all of it.
 module random_laws
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_problem
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem
   use general_reference, only: draw, infinity, integers, is_excluded, play_of
   use random_draws, only: chance, decimal, one_of, seed_of, uniform
   implicit none

@@ -3,7 +3,8 @@
 module random_scenes
   use, intrinsic :: iso_fortran_env, only: int64
   use engine_scene_type, only: engine_scene
-  use fuge, only: dp => fuge_dp, fuge_problem
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem
   use general_reference, only: draw, infinity, integers, is_prescribed, modes_of
   use random_bodies, only: draw_body
   use random_draws, only: chance, decimal, one_of, seed_of, uniform

@@ -2,7 +2,7 @@
 !> precision, residuals in quadruple.
 module refined_forces
   use, intrinsic :: iso_fortran_env, only: qp => real128
-  use fuge, only: dp => fuge_dp
+  use fuge_kinds, only: dp
   use fuge_lapack, only: dgetrf, dgetri
   implicit none
   private

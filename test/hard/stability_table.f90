@@ -5,8 +5,11 @@
 !> warning has a large residual.
 program stability_table
   use, intrinsic :: iso_fortran_env, only: output_unit, error_unit
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_solution, FUGE_ACTIVE_SET, FUGE_TABLEAU, FUGE_ITERATIVE, FUGE_DONE
+  use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_options_type, only: FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
+  use fuge_problem_type, only: fuge_solution
+  use fuge_status, only: fuge_info, FUGE_DONE
   use general_reference, only: general_violation
   use hard_general, only: general_scene, numbered_general, solve_general_scene, general_force_error, &
     general_gap_error, GENERAL_SCENES

@@ -1,9 +1,12 @@
 !> Judges what an engine makes of a random structure with one-way rows, by its forces in quadruple precision.
 module structure_judge
   use, intrinsic :: iso_fortran_env, only: qp => real128
-  use fuge, only: dp => fuge_dp, fuge_condensed, fuge_info, fuge_options, fuge_problem, fuge_solution, &
-    FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_ILL_CONDITIONED
+  use fuge_condensation, only: fuge_condensed
+  use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_status, only: fuge_info, FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_ILL_CONDITIONED
   use general_reference, only: solve_general
   use one_way_structures, only: condense_structure, one_way_structure
   use structure_oracle, only: known_structure

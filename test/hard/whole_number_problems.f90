@@ -6,8 +6,9 @@
 !> exclusions, compliances and limits; points on the border of two states.
 module whole_number_problems
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_problem, fuge_solution
+  use fuge_kinds, only: dp
   use fuge_lapack, only: dsyev
+  use fuge_problem_type, only: fuge_problem, fuge_solution
   use general_reference, only: infinity
   use random_draws, only: chance, one_of, seed_of, uniform
   implicit none

@@ -1,11 +1,12 @@
 ! The exchange of points of a line, its segments and its groups of cells do not depend on how ranks share the line.
 program exchanges
-  use fuge, dp => fuge_dp
+  use fuge_kinds, only: dp
   use fuge_level_groups, only: add_to_groups, compute_group_means, subtract_from_groups, sum_over_groups, GROUP
   use fuge_mpi, only: fuge_mpi_halfplane_operator
   use fuge_set_exchange, only: exchange_extrapolated
   use fuge_shared_exchange, only: count_segments, exchange_in_line
   use fuge_shared_rows, only: shared_rows
+  use fuge_status, only: fuge_info, FUGE_DONE
   use mpi_f08
   use rank_checks, only: begin_checks, end_checks, expect
   implicit none

@@ -1,7 +1,8 @@
 ! Operators and monitors that fail on one rank.
 module failing_ranks
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-  use fuge, dp => fuge_dp
+  use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor
   use fuge_mpi, only: fuge_mpi_halfspace_operator
   implicit none
   private
@@ -50,10 +51,18 @@ end module failing_ranks
 ! What goes wrong on one rank ends the call on all ranks, with the same status and a message that names the rank.
 program faults
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-  use fuge, dp => fuge_dp
   use failing_ranks, only: cancelling_monitor, failing_operator
+  use fuge_halfspace_grid, only: FUGE_PERIODIC_X
+  use fuge_kinds, only: dp
   use fuge_memory, only: physical_memory
-  use fuge_mpi, only: fuge_mpi_halfplane_operator, fuge_mpi_halfspace_operator, fuge_mpi_read_rows, fuge_mpi_write_rows
+  use fuge_mpi, only: fuge_mpi_halfplane_operator, fuge_mpi_halfspace_operator, fuge_mpi_read_rows, &
+    fuge_mpi_write_rows
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED, &
+    FUGE_ERR_FILE, FUGE_ERR_MEMORY, FUGE_ERR_MODULUS, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_SIZE, &
+    FUGE_ERR_UNSUPPORTED, FUGE_MESSAGE_LENGTH
   use mpi_f08
   implicit none
 

@@ -1,9 +1,17 @@
 ! Modes, play, excluded points, prescribed motions and derivatives: the ranks find what one process finds.
 program general
-  use fuge, dp => fuge_dp
+  use fuge_adjoint_solution, only: fuge_solve_adjoint
+  use fuge_gradients_type, only: fuge_gradients
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
+  use fuge_kinds, only: dp
   use fuge_mpi, only: fuge_mpi_halfplane_operator, fuge_mpi_halfspace_operator
-  use mpi_f08
+  use fuge_operator_type, only: fuge_operator
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OPTION
+  use fuge_wanted_pressure, only: fuge_gap_for_pressure, fuge_wanted_contact
   use lone_rank, only: lone_surface
+  use mpi_f08
   use rank_checks, only: begin_checks, check_solution, end_checks, expect, gather, my_rank
   implicit none
 

@@ -1,9 +1,16 @@
 ! Compliances, limits of forces and motions on springs: the ranks find what one process finds.
 program laws
-  use fuge, dp => fuge_dp
+  use fuge_contact_states, only: FUGE_LIMITED_LOWER
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
+  use fuge_kinds, only: dp
   use fuge_mpi, only: fuge_mpi_halfplane_operator, fuge_mpi_halfspace_operator
-  use mpi_f08
+  use fuge_operator_type, only: fuge_operator
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_LAW, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OPTION, &
+    FUGE_MESSAGE_LENGTH, FUGE_WARN_NOT_UNIQUE
   use lone_rank, only: lone_surface
+  use mpi_f08
   use rank_checks, only: begin_checks, check_solution, end_checks, expect, gather, my_rank
   implicit none
 

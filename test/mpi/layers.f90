@@ -1,10 +1,19 @@
 ! Layered bodies: the ranks find what one process finds, on lines and areas.
 program layers
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
-  use fuge, dp => fuge_dp
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
+  use fuge_halfplane_influence, only: FUGE_CENTRE, FUGE_MEAN
+  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
+  use fuge_halfspace_fft, only: fuge_halfspace_operator
+  use fuge_halfspace_grid, only: FUGE_PERIODIC_X
+  use fuge_kinds, only: dp
+  use fuge_layered_body_type, only: fuge_layered_body
   use fuge_mpi, only: fuge_mpi_halfplane_operator, fuge_mpi_halfspace_operator
-  use mpi_f08
+  use fuge_operator_type, only: fuge_operator
+  use fuge_problem_type, only: fuge_problem
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_MODULUS, FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED
   use lone_rank, only: lone_surface
+  use mpi_f08
   use rank_checks, only: begin_checks, check_solves, end_checks, expect, gather, my_rank
   implicit none
 

@@ -1,6 +1,10 @@
 ! What programs for several ranks expect: the solution of one process, on rank 0.
 module rank_checks
-  use fuge, dp => fuge_dp
+  use fuge_kinds, only: dp
+  use fuge_operator_type, only: fuge_operator
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info, FUGE_DONE
   use mpi_f08
   implicit none
   private

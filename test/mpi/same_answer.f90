@@ -1,10 +1,14 @@
 ! The ranks of MPI_COMM_WORLD find the solution of one process without products in single precision: the same contact
 ! set, forces and counts, on areas nearly.
 program same_answer
-  use fuge, dp => fuge_dp
+  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
+  use fuge_halfspace_fft, only: fuge_halfspace_operator
+  use fuge_kinds, only: dp
   use fuge_mpi, only: fuge_mpi_halfspace_operator
-  use mpi_f08
+  use fuge_problem_type, only: fuge_problem
+  use fuge_status, only: fuge_info, FUGE_DONE
   use lone_rank, only: lone_surface
+  use mpi_f08
   use rank_checks, only: begin_checks, check_solves, end_checks, expect, gather, my_rank
   implicit none
 

@@ -1,7 +1,7 @@
 !> Files of blocks in the formats of finite element programs.
 module block_files
   use block_models, only: block
-  use fuge, only: dp => fuge_dp
+  use fuge_kinds, only: dp
   implicit none
   private
 

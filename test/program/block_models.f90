@@ -1,7 +1,9 @@
 !> Two blocks of finite elements, in a plane or in space, as a finite element program would have them.
 module block_models
   use elastic_elements, only: mesh_stiffness, PLANE_STRESS, SOLID
-  use fuge, only: dp => fuge_dp, fuge_elastic_body, fuge_surface_mesh
+  use fuge_elastic_body_type, only: fuge_elastic_body
+  use fuge_kinds, only: dp
+  use fuge_surface_mesh_type, only: fuge_surface_mesh
   implicit none
   private
 

@@ -9,9 +9,12 @@
 program blocks
   use block_files, only: write_block, write_formats, write_loads
   use block_models, only: block, make_block, CLEARANCE, TOP_PRESSURE, WIDTH
-  use fuge, only: dp => fuge_dp, fuge_bodies_contact, fuge_dense_stiffness, fuge_elastic_body, fuge_info, &
-    fuge_pair_options, fuge_solve_bodies, fuge_surface_pair, FUGE_NODE_TO_FACE, FUGE_NORMALS_GIVEN, &
-    FUGE_NORMALS_OPPOSITE
+  use fuge_bodies_solution, only: fuge_bodies_contact, fuge_solve_bodies
+  use fuge_contact_pairs_type, only: fuge_pair_options, FUGE_NODE_TO_FACE, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
+  use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info
+  use fuge_stiffness_dense, only: fuge_dense_stiffness
   implicit none
 
   real(dp), parameter :: TOLERANCE = 1.0e-12_dp, PI = acos(-1.0_dp)

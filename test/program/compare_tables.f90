@@ -3,7 +3,7 @@
 !> CSV; lines that begin with # are left out, the first line has to be the same. A number may differ by 1e-12 of the
 !> largest one in its column.
 program compare_tables
-  use fuge, only: dp => fuge_dp
+  use fuge_kinds, only: dp
   implicit none
 
   real(dp), parameter :: TOLERANCE = 1.0e-12_dp

@@ -1,7 +1,7 @@
 !> Forces of a pressure on single faces, known in closed form.
 program face_forces
   use face_pressures, only: add_face_forces
-  use fuge, only: dp => fuge_dp
+  use fuge_kinds, only: dp
   implicit none
 
   real(dp), parameter :: PI = acos(-1.0_dp)

@@ -3,7 +3,9 @@
 !>
 !> A ball, by Hertz; a wave on a periodic surface, by H. M. Westergaard (K. L. Johnson, Contact Mechanics, 1985, 13.2).
 program surfaces
-  use fuge, only: dp => fuge_dp, fuge_hertz_contact, fuge_hertz_ellipse, fuge_info
+  use fuge_hertz_theory, only: fuge_hertz_contact, fuge_hertz_ellipse
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info
   implicit none
 
   real(dp), parameter :: PI = acos(-1.0_dp)

@@ -11,7 +11,7 @@
 !> Pressure and slope of the gap are the two parts of one analytic function, so that gaps
 !> are integrals of the pressure's formula continued beyond the edge, times 2/E*.
 module closed_forms
-  use fuge, only: dp => fuge_dp
+  use fuge_kinds, only: dp
   implicit none
   private
 

@@ -3,8 +3,12 @@
 module general_reference
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_info, fuge_options, fuge_problem, fuge_solution, &
-    fuge_solver
+  use fuge_kinds, only: dp
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info
   implicit none
   private
 

@@ -1,6 +1,6 @@
 !> Bodies whose waves are known in closed form: a half-space with the images of its forces at a depth.
 module image_mixtures
-  use fuge, only: dp => fuge_dp
+  use fuge_kinds, only: dp
   use fuge_wave_mixture, only: wave_mixture, STEP
   implicit none
   private

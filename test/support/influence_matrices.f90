@@ -1,8 +1,10 @@
 !> Influence matrices that several tests share, the places of their points and the modes of a rigid body on them.
 module influence_matrices
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_halfplane_matrix, fuge_info, fuge_operator, FUGE_DONE, FUGE_MEAN
-  use fuge_halfplane_influence, only: mean_log
+  use fuge_halfplane_influence, only: fuge_halfplane_matrix, mean_log, FUGE_MEAN
+  use fuge_kinds, only: dp
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info, FUGE_DONE
   use general_reference, only: draw, integers
   implicit none
   private

@@ -1,6 +1,7 @@
 !> Fields of stress in closed form, for the search for the largest one.
 module known_stress_fields
-  use fuge, only: dp => fuge_dp, fuge_info
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info
   use fuge_stress_field, only: stress_field
   implicit none
   private

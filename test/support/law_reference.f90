@@ -2,7 +2,8 @@
 !> one by one, and the distance of an answer from its law. Of the library only the types are used.
 module law_reference
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_problem, fuge_solution
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem, fuge_solution
   use general_reference, only: draw, eliminate, infinity, integers, is_excluded, is_prescribed, modes_of, play_of
   implicit none
   private

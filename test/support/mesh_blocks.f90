@@ -1,7 +1,8 @@
 !> Blocks of linear elastic finite elements, in the plane (plane strain) and in space: stiffness, surfaces, stresses.
 !> Shape functions are found by inverting the matrix of monomials at the nodes, so that nothing is shared with fuge.
 module mesh_blocks
-  use fuge, only: dp => fuge_dp, fuge_surface_mesh
+  use fuge_kinds, only: dp
+  use fuge_surface_mesh_type, only: fuge_surface_mesh
   implicit none
   private
 

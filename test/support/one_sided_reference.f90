@@ -1,7 +1,8 @@
 !> What problems of one translation and one-sided points are tested against. Other than in general_reference, lengths
 !> and residuals do not depend on the datum of gaps and matrix.
 module one_sided_reference
-  use fuge, only: dp => fuge_dp, fuge_problem, fuge_solution
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem, fuge_solution
   use general_reference, only: enumerate_states
   implicit none
   private

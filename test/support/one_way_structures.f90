@@ -1,8 +1,12 @@
 !> Linear structures with members and supports that carry in one direction only: their data, assembly, and the contact
 !> problem that they pose.
 module one_way_structures
-  use fuge, only: dp => fuge_dp, fuge_body, fuge_condense, fuge_condensed, fuge_dense_stiffness, fuge_info, &
-    fuge_problem
+  use fuge_body_type, only: fuge_body
+  use fuge_condensation, only: fuge_condense, fuge_condensed
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem
+  use fuge_status, only: fuge_info
+  use fuge_stiffness_dense, only: fuge_dense_stiffness
   use general_reference, only: infinity
   implicit none
   private

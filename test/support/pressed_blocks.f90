@@ -1,8 +1,10 @@
 !> Two blocks of different meshes under a uniform pressure, as bodies with their own stiffness matrices: what they are
 !> given, and how far their stresses are from uniform.
 module pressed_blocks
-  use fuge, only: dp => fuge_dp, fuge_elastic_body, fuge_surface_mesh, fuge_surface_pair
   use expectations, only: relative_difference
+  use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair
+  use fuge_kinds, only: dp
+  use fuge_surface_mesh_type, only: fuge_surface_mesh
   use mesh_blocks, only: block_stiffness, block_stress, elastic_block, face_nodes_of, make_block, stress_forces
   implicit none
   private

@@ -2,7 +2,7 @@
 !> seed advances it, so that an expression must not call two of them.
 module random_draws
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp
+  use fuge_kinds, only: dp
   use general_reference, only: draw
   implicit none
   private

@@ -1,7 +1,8 @@
 !> Random contact problems that several tests share.
 module random_problems
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_problem
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_problem
   use general_reference, only: draw
   use influence_matrices, only: exponential_bed
   implicit none

@@ -3,11 +3,11 @@
 !> members are alike, gaps equal and loads symmetric, so that rows are at the corner of their law.
 module random_structures
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp
+  use fuge_kinds, only: dp
   use general_reference, only: draw, infinity
   use one_way_structures, only: add_member, add_row, begin_rows, one_way_structure
-  use random_draws, only: chance, decimal, one_of, seed_of, uniform
   use raft_plates, only: plate_stiffness
+  use random_draws, only: chance, decimal, one_of, seed_of, uniform
   use structure_members, only: bar, bar_direction, frame_beam, grillage_beam
   implicit none
   private

@@ -1,6 +1,7 @@
 !> A monitor that keeps all reports of a solve, and may cancel it.
 module recording_monitor
-  use fuge, only: dp => fuge_dp, fuge_monitor
+  use fuge_kinds, only: dp
+  use fuge_monitor_type, only: fuge_monitor
   implicit none
   private
 

@@ -1,6 +1,8 @@
 !> Stiffness matrices of small bodies, and a check of a solved contact by the whole body.
 module small_bodies
-  use fuge, only: dp => fuge_dp, fuge_body, fuge_solution
+  use fuge_body_type, only: fuge_body
+  use fuge_kinds, only: dp
+  use fuge_problem_type, only: fuge_solution
   implicit none
   private
 

@@ -1,7 +1,9 @@
 !> Profiles of smooth punches for tests, by number.
 module smooth_profiles
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use fuge, only: dp => fuge_dp, fuge_polynomial_profile, fuge_power_profile, fuge_smooth_profile
+  use fuge_kinds, only: dp
+  use fuge_power_profile_type, only: fuge_power_profile
+  use fuge_smooth_profile_type, only: fuge_polynomial_profile, fuge_smooth_profile
   implicit none
   private
 

@@ -1,6 +1,6 @@
 !> Stiffness matrices of members: bars, beams in a plane and beams of a grillage.
 module structure_members
-  use fuge, only: dp => fuge_dp
+  use fuge_kinds, only: dp
   implicit none
   private
 

@@ -7,7 +7,7 @@
 !> finds that no forces carry the load.
 module structure_oracle
   use, intrinsic :: iso_fortran_env, only: qp => real128
-  use fuge, only: dp => fuge_dp
+  use fuge_kinds, only: dp
   use one_way_structures, only: one_way_structure
   implicit none
   private

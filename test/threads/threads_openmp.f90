@@ -2,9 +2,17 @@
 !> All answers must be those of the same loop run by one thread, bit for bit.
 program threads_openmp
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_dense_operator, fuge_follow_path, fuge_halfplane_matrix, &
-    fuge_halfplane_operator, fuge_info, fuge_load_path, fuge_operator, fuge_options, fuge_path, fuge_problem, &
-    fuge_solution, fuge_solver, FUGE_ACTIVE_SET, FUGE_ERR_OPTION, FUGE_ITERATIVE, FUGE_MEAN, FUGE_TABLEAU
+  use fuge_contact_path, only: fuge_follow_path, fuge_load_path
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
+  use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_MEAN
+  use fuge_kinds, only: dp
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_operator_type, only: fuge_operator
+  use fuge_options_type, only: fuge_options, FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
+  use fuge_path_type, only: fuge_path
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info, FUGE_ERR_OPTION
   use omp_lib, only: omp_get_num_threads
   implicit none
 

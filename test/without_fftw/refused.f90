@@ -1,7 +1,12 @@
 !> A library without FFTW: what needs transforms refuses and says why, from Fortran and FORTRAN 77.
 program refused
-  use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_halfplane_stress_grid, fuge_halfspace_operator, &
-    fuge_info, FUGE_ERR_UNSUPPORTED, FUGE_FREE, FUGE_MEAN
+  use fuge_halfplane_depths, only: fuge_halfplane_stress_grid
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
+  use fuge_halfplane_influence, only: FUGE_MEAN
+  use fuge_halfplane_line, only: FUGE_FREE
+  use fuge_halfspace_fft, only: fuge_halfspace_operator
+  use fuge_kinds, only: dp
+  use fuge_status, only: fuge_info, FUGE_ERR_UNSUPPORTED
   implicit none
 
   interface

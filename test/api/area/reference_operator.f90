@@ -1,7 +1,10 @@
 !> The built-in operators of grids as C functions, so that a callback operator can do the very same products.
 module reference_operator
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_null_ptr, c_loc, c_f_pointer
-  use fuge, only: fuge_halfplane_operator, fuge_halfspace_operator, fuge_info, fuge_operator
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
+  use fuge_halfspace_fft, only: fuge_halfspace_operator
+  use fuge_operator_type, only: fuge_operator
+  use fuge_status, only: fuge_info
   implicit none
   private
 

@@ -1,8 +1,14 @@
 !> Gradients against derivatives: the reverse of a derivative gives the same number in any direction.
 module adjoint_expectations
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, dp => fuge_dp
+  use fuge_adjoint_solution, only: fuge_solve_adjoint
+  use fuge_gradients_type, only: fuge_gradients
+  use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info
   use general_reference, only: draw
   implicit none
   private

@@ -1,7 +1,15 @@
 !> What tests of proofs by products share.
 module proof_expectations
-  use fuge, dp => fuge_dp
+  use fuge_kinds, only: dp
+  use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
+  use fuge_options_type, only: fuge_options
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_proof_type, only: fuge_proof
+  use fuge_solution_proof, only: fuge_prove
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info, FUGE_DONE
   use general_reference, only: solve_general
   implicit none
   private

@@ -1,9 +1,13 @@
 !> What tests expect of a stiffness matrix, whatever its storage; as in `expectations`, '' tells that it is so.
 module stiffness_expectations
-  use fuge, only: dp => fuge_dp, fuge_body, fuge_condense, fuge_condensed, fuge_info, fuge_stiffness, FUGE_DONE, &
-    FUGE_ERR_DOF, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
-  use fuge_number_text, only: text
   use expectations, only: add_difference, add_words, REPORT_LENGTH, unexpected
+  use fuge_body_type, only: fuge_body
+  use fuge_condensation, only: fuge_condense, fuge_condensed
+  use fuge_kinds, only: dp
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_DOF, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, &
+    FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
+  use fuge_stiffness_type, only: fuge_stiffness
   use general_reference, only: infinity
   use small_bodies, only: to_columns
   implicit none

@@ -1,7 +1,8 @@
 !> Strains, by differences of displacements, against those of the stresses by Hooke's law.
 module strain_differences
-  use fuge, only: dp => fuge_dp, FUGE_PLANE_STRAIN
   use expectations, only: relative_difference
+  use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
+  use fuge_kinds, only: dp
   implicit none
   private
 
