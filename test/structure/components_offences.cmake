@@ -42,6 +42,9 @@ plant(core/base/fuge_planted_eight.f90
   "core/base/fuge_planted_eight.f90 uses fuge_of_nowhere, which is no module of fuge\n")
 plant(core/base/fuge_planted_nine.f90 "module fuge_other\nend module fuge_other\n"
   "core/base/fuge_planted_nine.f90 holds module fuge_other\n")
+plant(core/base/fuge_planted_fifteen.f90 "submodule(fuge_solver_type) fuge_other\nend submodule fuge_other\n"
+  "core/base/fuge_planted_fifteen.f90 holds submodule fuge_other\n"
+  "core/base/fuge_planted_fifteen.f90 is a part of fuge_solver_type, which is in another folder\n")
 plant(core/room/fuge_planted_ten.f90 "module fuge_planted_ten\nend module fuge_planted_ten\n"
   "core/folders.txt lacks the folder core/room\n")
 plant(core/folders.txt "cellar : base\n" "core/folders.txt names core/cellar, a folder without sources\n")

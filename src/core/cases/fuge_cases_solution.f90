@@ -1,15 +1,18 @@
 !> Solve many load cases of one contact problem, each from the contact set of the case most like it.
 module fuge_cases_solution
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
+  use fuge_engine_choice, only: takes_products
   use fuge_kinds, only: dp
   use fuge_load_cases_type, only: allocate_case_solutions, check_cases, fuge_case_solutions, fuge_load_cases, &
     move_case_solutions, take_case
   use fuge_monitor_type, only: fuge_monitor
+  use fuge_nearest_case, only: case_directions
   use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
   use fuge_point_space, only: point_space
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
   use fuge_status, only: composed_message, fuge_info, report, FUGE_DONE, FUGE_ERR_CANCELLED, FUGE_ERR_SIZE, &
     FUGE_ERR_UNSUPPORTED, FUGE_WARN_CASES
   implicit none
@@ -31,9 +34,6 @@ contains
   !> force_error and energy are the largest of any. Errors, `solutions` untouched: FUGE_ERR_SIZE for cases that do not
   !> fit the problem, FUGE_ERR_UNSUPPORTED where ranks share the points, FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED.
   subroutine fuge_solve_cases(solver, operator, problem, cases, solutions, info, options, monitor)
-    use fuge_engine_choice, only: takes_products
-    use fuge_nearest_case, only: case_directions
-    use fuge_solver_type, only: fuge_solver
     type(fuge_solver), intent(inout) :: solver
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -85,7 +85,6 @@ contains
 
   !> Solve case `k` from the contact set of case `like`, which is 0 if there is none.
   subroutine solve_case(solver, operator, problem, options, like, k, found)
-    use fuge_solver_type, only: fuge_solver
     type(fuge_solver), intent(inout) :: solver
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem

@@ -9,8 +9,11 @@
 !> objective in the places of the changes of gaps and loads, and every engine that has derivatives has gradients
 !> (doc/theory.md).
 module fuge_adjoint_solution
+  use fuge_adjoint_weights, only: adjoint_weights, check_weights, set_weights
   use fuge_gradients_type, only: fuge_gradients
   use fuge_kinds, only: dp
+  use fuge_kink_search, only: mark_kinks, warn_of_kinks
+  use fuge_law_gradients, only: find_law_gradients, set_displacement
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
@@ -40,8 +43,6 @@ contains
   !> contact does not resist; FUGE_ERR_OVERFLOW; those of the product. T. F. Conry and A. Seireg, J. Applied Mechanics
   !> 38 (1971), 387-392, design with such problems.
   subroutine fuge_solve_adjoint(solver, operator, problem, solution, weight, gradients, info)
-    use fuge_adjoint_weights, only: adjoint_weights, check_weights, set_weights
-    use fuge_kink_search, only: warn_of_kinks
     class(fuge_solver), intent(in) :: solver
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -128,7 +129,6 @@ contains
 
   !> The gradients by gaps, loads and limits from the derivative `adjoint`.
   subroutine set_gradients(problem, solution, weights, adjoint, space, gradients)
-    use fuge_adjoint_weights, only: adjoint_weights
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution, adjoint
     type(adjoint_weights), intent(in) :: weights
@@ -151,9 +151,6 @@ contains
 
   !> The gradients that follow from those by gaps and loads, and points at a kink. Error: FUGE_ERR_MEMORY.
   subroutine set_law_gradients(operator, problem, solution, weights, space, gradients, info)
-    use fuge_adjoint_weights, only: adjoint_weights
-    use fuge_kink_search, only: mark_kinks
-    use fuge_law_gradients, only: find_law_gradients, set_displacement
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution

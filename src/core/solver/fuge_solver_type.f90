@@ -4,24 +4,23 @@ module fuge_solver_type
   use fuge_history_type, only: fuge_history
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_monitor_type, only: fuge_monitor, monitor_relay
+  use fuge_matrix_operator, only: fuge_dense_operator
+  use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_options_type, only: fuge_options, check_options
-  use fuge_problem_bounds, only: begins_with_one
-  use fuge_problem_type, only: fuge_problem, fuge_solution, check_problem, copy_problem, move_solution, set_problem
+  use fuge_options_type, only: fuge_options
   use fuge_point_space, only: point_space
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, &
-    FUGE_ERR_OPTION
-  use fuge_threads, only: thread_team, usable_threads
+  use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
+  use fuge_shared_problem, only: differ
+  use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_OPTION, FUGE_ERR_SIZE
+  use fuge_threads, only: thread_team
   implicit none
   private
 
   public :: fuge_solve_dense
 
   !> Solves contact problems one after the other, each from the contact set of the last one. One solver for each
-  !> thread. What engines are made of is known where they are made alone: neither a compiler that reads this type nor a
-  !> reader has to go through it.
+  !> thread.
   type, public :: fuge_solver
     !> Basis and z of each pivot of the last tableau solve, if it was asked for.
     type(fuge_history) :: history
@@ -48,180 +47,32 @@ module fuge_solver_type
     procedure :: thread_count
   end type fuge_solver
 
+  interface
+    !> Solve the contact problem (paper, equations 9 to 11) and certify the solution.
+    !>
+    !> `operator` displacements per force, `problem` gaps and load, `options` as in `fuge_options` (defaults when
+    !> absent); options%threads share the work, and change no result. `monitor` hears of each iteration, in the thread
+    !> of the call, and may cancel; without a load there are none. On return info%status is FUGE_DONE, with a message
+    !> only if the contact reaches the rim of a free grid, or the first of these warnings that is true:
+    !> FUGE_WARN_RESIDUAL with the residual in the message; FUGE_WARN_NOT_UNIQUE where alpha is singular on the points
+    !> that touch, with or without force (the forces are then one of many possible), or the contact does not resist a
+    !> mode (its motion is then one of many possible), or both; FUGE_WARN_ILL_CONDITIONED if info%force_error, the
+    !> estimated error of the forces, is above 1e-3 and a thousand times the tolerance. Or it is an error that leaves
+    !> `solution` untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM,
+    !> FUGE_ERR_NOT_DEFINITE, FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY,
+    !> FUGE_ERR_CALLBACK, FUGE_ERR_CANCELLED. The next solve is possible after any of them.
+    module subroutine solve(self, operator, problem, solution, info, options, monitor)
+      class(fuge_solver), intent(inout) :: self
+      class(fuge_operator), intent(in) :: operator
+      type(fuge_problem), intent(in) :: problem
+      type(fuge_solution), intent(inout) :: solution
+      type(fuge_info), intent(out) :: info
+      type(fuge_options), intent(in), optional :: options
+      class(fuge_monitor), intent(inout), optional, target :: monitor
+    end subroutine solve
+  end interface
+
 contains
-
-  !> Solve the contact problem (paper, equations 9 to 11) and certify the solution.
-  !>
-  !> `operator` displacements per force, `problem` gaps and load, `options` as in `fuge_options` (defaults when
-  !> absent); options%threads share the work, and change no result. `monitor` hears of each iteration, in the thread of
-  !> the call, and may cancel; without a load there are none. On return info%status is FUGE_DONE, with a message only if
-  !> the contact reaches the rim of a free grid, or the first of these warnings that is true: FUGE_WARN_RESIDUAL with
-  !> the residual in the message; FUGE_WARN_NOT_UNIQUE where alpha is singular on the points that touch, with or without
-  !> force (the forces are then one of many possible), or the contact does not resist a mode (its motion is then one of
-  !> many possible), or both; FUGE_WARN_ILL_CONDITIONED if info%force_error, the estimated error of the forces, is above
-  !> 1e-3 and a thousand times the tolerance. Or it is an error that leaves `solution` untouched:
-  !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE,
-  !> FUGE_ERR_ITERATION_LIMIT, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, FUGE_ERR_CALLBACK,
-  !> FUGE_ERR_CANCELLED. The next solve is possible after any of them.
-  subroutine solve(self, operator, problem, solution, info, options, monitor)
-    class(fuge_solver), intent(inout) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(out) :: info
-    type(fuge_options), intent(in), optional :: options
-    class(fuge_monitor), intent(inout), optional, target :: monitor
-    type(fuge_options) :: chosen
-    type(fuge_problem) :: copy
-    type(monitor_relay) :: relay
-    type(point_space) :: space
-    logical :: usual
-
-    if (present(options)) chosen = options
-    if (present(monitor)) relay%listener => monitor
-    self%history = fuge_history()
-    self%has_solution = .false.
-    self%last_report = fuge_info()
-    space = operator%ranks()
-    usual = begins_with_one(problem)
-    call check_options(chosen, info)
-    if (.not. (usual .or. info%failed())) call copy_problem(problem, copy, info)
-    call space%agree(info)
-    if (info%failed()) return
-    if (usual) then
-      call solve_from_one(self, operator, problem, chosen, space, relay, solution, info)
-    else
-      call solve_from_one(self, operator, copy, chosen, space, relay, solution, info)
-    end if
-  end subroutine solve
-
-  !> Solve a problem whose arrays begin with 1, with options that hold.
-  subroutine solve_from_one(self, operator, problem, chosen, space, relay, solution, info)
-    use fuge_certified_solution, only: certify
-    use fuge_engine_choice, only: takes_products
-    use fuge_shared_problem, only: check_shared_problem
-    use fuge_unloaded_contact, only: is_unloaded, solve_without_load
-    class(fuge_solver), intent(inout) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_options), intent(in) :: chosen
-    type(point_space), intent(in) :: space
-    type(monitor_relay), intent(inout) :: relay
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-    type(fuge_solution) :: candidate
-    type(thread_team) :: team
-
-    if (space%total_count(operator%points()) < 1) then
-      call report(info, FUGE_ERR_SIZE, 'the operator has no points: set it before the solve')
-      return
-    end if
-    call check_problem(problem, operator%points(), info)
-    call space%agree(info)
-    if (.not. (space%is_alone() .or. info%failed())) call check_shared_problem(problem, chosen, space, info)
-    if (info%failed()) return
-
-    self%threads = chosen%threads
-    if (self%threads == 0) self%threads = usable_threads()
-    call team%begin(self%threads)
-    if (is_unloaded(problem)) then
-      call solve_without_load(problem, space, candidate, info)
-      if (.not. info%failed()) call certify(operator, problem, candidate, chosen%tolerance, info)
-    else
-      self%solved_by_products = takes_products(operator, chosen)
-      if (self%solved_by_products) then
-        call require_product_engine(self%by_products, space, info)
-        if (.not. info%failed()) call solve_again_if_misled(self%by_products, operator, problem, chosen, relay, &
-                                                            self%history, candidate, info)
-      else
-        call require_matrix_engine(self%by_matrix, info)
-        if (.not. info%failed()) call solve_again_if_misled(self%by_matrix, operator, problem, chosen, relay, &
-                                                            self%history, candidate, info)
-      end if
-      if (info%status == FUGE_ERR_CANCELLED) call report(info, FUGE_ERR_CANCELLED, 'cancelled at iteration ' &
-                                                         //text(relay%reported)//' by the progress monitor')
-      self%has_solution = .not. info%failed()
-    end if
-    call team%end()
-    if (info%failed()) then
-      ! A factor from which no accepted solution came is no start for the next solve.
-      if (allocated(self%by_matrix)) call self%by_matrix%distrust_start()
-    else
-      self%last_report = info
-      if (allocated(self%by_matrix) .and. .not. self%solved_by_products) call self%by_matrix%take_arrays(solution)
-      call move_solution(candidate, solution)
-    end if
-  end subroutine solve_from_one
-
-  !> Allocate the engine for matrices unless it is already. Error: FUGE_ERR_MEMORY.
-  subroutine require_matrix_engine(engine, info)
-    use fuge_dense_engine, only: dense_engine
-    class(matrix_engine), intent(inout), allocatable :: engine
-    type(fuge_info), intent(inout) :: info
-    integer :: stat
-
-    stat = 0
-    if (.not. allocated(engine)) allocate (dense_engine :: engine, stat=stat)
-    call require_memory(stat, 'the engine', info)
-  end subroutine require_matrix_engine
-
-  !> Allocate the engine for products unless it is already, on all ranks or on none. Error: FUGE_ERR_MEMORY.
-  subroutine require_product_engine(engine, space, info)
-    use fuge_product_engine, only: product_engine
-    class(contact_engine), intent(inout), allocatable :: engine
-    type(point_space), intent(in) :: space
-    type(fuge_info), intent(inout) :: info
-    integer :: stat
-
-    stat = 0
-    if (.not. allocated(engine)) allocate (product_engine :: engine, stat=stat)
-    call require_memory(stat, 'the iteration', info)
-    call space%agree(info)
-  end subroutine require_product_engine
-
-  !> Solve, and once more if what the engine has kept of an earlier solve has misled it. What the other engine keeps
-  !> has no share in that, and stays.
-  subroutine solve_again_if_misled(engine, operator, problem, options, monitor, history, solution, info)
-    class(contact_engine), intent(inout) :: engine
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_options), intent(in) :: options
-    class(fuge_monitor), intent(inout) :: monitor
-    type(fuge_history), intent(inout) :: history
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-
-    call solve_and_certify(engine, operator, problem, options, monitor, history, solution, info)
-    if (.not. engine%was_misled(info%status)) return
-    call engine%distrust_start()
-    solution = fuge_solution()
-    info = fuge_info()
-    call solve_and_certify(engine, operator, problem, options, monitor, history, solution, info)
-  end subroutine solve_again_if_misled
-
-  !> One solve by the `engine`, and its certificate.
-  subroutine solve_and_certify(engine, operator, problem, options, monitor, history, solution, info)
-    use fuge_certified_solution, only: certify
-    use fuge_iterative_engine, only: is_general
-    class(contact_engine), intent(inout) :: engine
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    type(fuge_options), intent(in) :: options
-    class(fuge_monitor), intent(inout) :: monitor
-    type(fuge_history), intent(inout) :: history
-    type(fuge_solution), intent(inout) :: solution
-    type(fuge_info), intent(inout) :: info
-
-    call engine%solve(operator, problem, options, monitor, history, solution, info)
-    if (.not. info%failed()) then
-      call engine%judge(operator, problem, options%tolerance, info)
-      if (info%failed()) call engine%forget_start()
-    else if (is_general(problem) .and. .not. problem%has_law()) then
-      call engine%explain(operator, problem, options%tolerance, info)
-    end if
-    if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
-    if (.not. info%failed()) call engine%keep(operator, problem, solution)
-  end subroutine solve_and_certify
 
   !> Start the next solve with a matrix from these states of the points, (n), as in `fuge_solution`, instead of those of
   !> the last solve; any states are allowed, and change no solution. Without effect before the first solve with a
@@ -339,7 +190,6 @@ contains
 
   !> The derivative of the last solution of `engine`, for changes that fit it, by up to `threads` threads.
   subroutine differentiate(engine, operator, gap_change, load_change, threads, change, info, wanted)
-    use fuge_shared_problem, only: differ
     class(contact_engine), intent(in) :: engine
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap_change(:), load_change(:)
@@ -400,7 +250,6 @@ contains
   !> `alpha` (n, n) length per force, `gap` (n) length, `load` force; out: `force` (n), `gap_out` (n) and `approach`,
   !> untouched on an error. Status and errors as for `solve` and for `set` of `fuge_dense_operator`.
   subroutine fuge_solve_dense(alpha, gap, load, force, gap_out, approach, info)
-    use fuge_matrix_operator, only: fuge_dense_operator
     real(dp), intent(in), target :: alpha(:, :)
     real(dp), intent(in) :: gap(:), load
     real(dp), intent(inout) :: force(:), gap_out(:), approach

@@ -5,6 +5,7 @@ module fuge_halfplane_interior
   use fuge_halfplane_influence, only: datum_length
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
+  use fuge_pressed_line, only: check_line, pressed_line
   use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW
   use fuge_stress_checks, only: check_coordinate, check_depth, check_result
   implicit none
@@ -34,7 +35,6 @@ contains
   !> cost O((n + points) log(n)). Source: `fuge_strip_field`, `fuge_hat_field`, `fuge_cell_clusters`. The arguments
   !> are nine, because cells, points and result are plain arrays, as a solver and its caller have them.
   pure subroutine fuge_halfplane_stress(x, width, force, element, px, pz, stress, info, symmetric)
-    use fuge_pressed_line, only: check_line, pressed_line
     real(dp), intent(in) :: x(:), width(:), force(:), px(:), pz(:)
     integer, intent(in) :: element
     real(dp), intent(inout) :: stress(:, :)
@@ -72,7 +72,6 @@ contains
   !> twelve, because the moduli of one body come to those of `fuge_halfplane_stress`.
   pure subroutine fuge_halfplane_displacement(x, width, force, element, young, poisson, plane_state, px, pz, &
                                               displacement, info, symmetric)
-    use fuge_pressed_line, only: check_line, pressed_line
     real(dp), intent(in) :: x(:), width(:), force(:), young, poisson, px(:), pz(:)
     integer, intent(in) :: element, plane_state
     real(dp), intent(inout) :: displacement(:, :)

@@ -1,7 +1,9 @@
 !> Stresses and displacements inside an elastic half-space, under uniform pressures on rectangles.
 module fuge_halfspace_interior
+  use fuge_area_field, only: add_area_field, area_field, new_area_field
   use fuge_elastic_moduli, only: check_poisson, fuge_plane_modulus, FUGE_PLANE_STRAIN
   use fuge_kinds, only: dp
+  use fuge_pressed_area, only: check_area, pressed_area
   use fuge_status, only: fuge_info, require_memory
   use fuge_stress_checks, only: check_coordinate, check_depth, check_displacement_range, check_result
   implicit none
@@ -30,8 +32,6 @@ contains
   !> Mechanics, 1985, sections 3.2 and 3.4. Thirteen arguments: the order is that of the C interface.
   pure subroutine fuge_halfspace_stress(x, y, width_x, width_y, force, poisson, px, py, pz, stress, info, symmetric_x, &
                                         symmetric_y)
-    use fuge_area_field, only: add_area_field, area_field, new_area_field
-    use fuge_pressed_area, only: check_area, pressed_area
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:), poisson, px(:), py(:), pz(:)
     real(dp), intent(inout) :: stress(:, :)
     type(fuge_info), intent(out) :: info
@@ -70,8 +70,6 @@ contains
   !> Mechanics, 1985, sections 3.2 and 3.4. Fourteen arguments: the order is that of the C interface.
   pure subroutine fuge_halfspace_displacement(x, y, width_x, width_y, force, young, poisson, px, py, pz, displacement, &
                                               info, symmetric_x, symmetric_y)
-    use fuge_area_field, only: add_area_field, area_field, new_area_field
-    use fuge_pressed_area, only: check_area, pressed_area
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:), young, poisson, px(:), py(:), pz(:)
     real(dp), intent(inout) :: displacement(:, :)
     type(fuge_info), intent(out) :: info

@@ -3,7 +3,14 @@
 !> It sees only the caller's data, and shares no arithmetic with any engine: only the call of the operator, the loop
 !> over chunks of points, and what the model offers to all, its point laws and lengths of data.
 module fuge_certificate
+  use fuge_certificate_judgement, only: judge_points
+  use fuge_certificate_passes, only: add_rounding_of_bodies, certificate_pass, find_arms, find_rigid_displacement, &
+    sum_open_lengths, sum_terms, survey_displacements, survey_forces, tile_lengths, TILE
+  use fuge_data_scales, only: data_length, largest_by_mode, largest_of_body
+  use fuge_elastic_energy, only: elastic_energy, energy_units
   use fuge_kinds, only: dp
+  use fuge_load_balance, only: equilibrium_violation, BESIDE
+  use fuge_operator_products, only: multiply, multiply_with_magnitude
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_point_space, only: point_space
@@ -108,9 +115,6 @@ contains
 
   !> As `find_violation`, for arrays of the right sizes. Errors of the gaps above `suspect` may be rounding.
   subroutine judge(operator, problem, solution, suspect, violation, info)
-    use fuge_certificate_passes, only: certificate_pass, survey_forces
-    use fuge_elastic_energy, only: elastic_energy
-    use fuge_load_balance, only: equilibrium_violation
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in), target :: problem
     type(fuge_solution), intent(in), target :: solution
@@ -165,7 +169,6 @@ contains
   !> Take what `survey_forces` has `found`, of all ranks. `forces`: their sum, that of their magnitudes, and the largest
   !> magnitude.
   subroutine take_forces(pass, space, found, forces)
-    use fuge_certificate_passes, only: certificate_pass
     type(certificate_pass), intent(inout) :: pass
     type(point_space), intent(in) :: space
     real(dp), intent(inout) :: found(6)
@@ -184,9 +187,6 @@ contains
   !> The displacements by the `forces`, as from `take_forces`, the terms of them, and the units in which works are
   !> summed. Errors: those of the product.
   subroutine find_displacements(operator, forces, pass, units, info)
-    use fuge_certificate_passes, only: certificate_pass, survey_displacements
-    use fuge_elastic_energy, only: energy_units
-    use fuge_operator_products, only: multiply, multiply_with_magnitude
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: forces(3)
     type(certificate_pass), intent(inout) :: pass
@@ -212,7 +212,6 @@ contains
 
   !> R q less the displacement by the `datum`, and the magnitude of its terms.
   subroutine find_motions(datum, forces, space, pass)
-    use fuge_certificate_passes, only: add_rounding_of_bodies, certificate_pass, find_rigid_displacement
     real(dp), intent(in) :: datum, forces(3)
     type(point_space), intent(in) :: space
     type(certificate_pass), intent(inout) :: pass
@@ -237,8 +236,6 @@ contains
   !> Judge all points, with the one that `find_reference` has found here. For one translation, the error that all points
   !> share (that of v_0) and the rest are judged separately.
   subroutine judge_with_reference(pass, reference, space, violation)
-    use fuge_certificate_judgement, only: judge_points
-    use fuge_certificate_passes, only: certificate_pass, tile_lengths
     type(certificate_pass), intent(inout) :: pass
     integer, intent(in) :: reference
     type(point_space), intent(in) :: space
@@ -268,8 +265,6 @@ contains
 
   !> (A + D) f of the `force` (n), less the datum of the operator, and the `terms` of it. Errors: those of the product.
   subroutine displace(operator, pass, force, displacement, terms, info)
-    use fuge_certificate_passes, only: certificate_pass
-    use fuge_operator_products, only: multiply_with_magnitude
     class(fuge_operator), intent(in) :: operator
     type(certificate_pass), intent(in) :: pass
     real(dp), intent(in) :: force(:)
@@ -284,7 +279,6 @@ contains
 
   !> `largest` (n): at each point the largest magnitude of `values` (n) on its body.
   subroutine spread_over_bodies(modes, values, space, largest)
-    use fuge_data_scales, only: largest_by_mode, largest_of_body
     real(dp), intent(in) :: modes(:, :), values(:)
     type(point_space), intent(in) :: space
     real(dp), intent(inout) :: largest(:)
@@ -304,7 +298,6 @@ contains
   !>
   !> `error` (n) are the errors that remain. One more product. Errors: those of the product, FUGE_ERR_MEMORY.
   subroutine take_out_rounding(operator, pass, error, info)
-    use fuge_certificate_passes, only: certificate_pass, tile_lengths, TILE
     class(fuge_operator), intent(in) :: operator
     type(certificate_pass), intent(in) :: pass
     real(dp), allocatable, intent(out) :: error(:)
@@ -363,8 +356,6 @@ contains
   !>
   !> `total` is the sum of the magnitudes of the forces.
   function unresolved_lengths(pass, total, space) result(violation)
-    use fuge_certificate_passes, only: certificate_pass, sum_open_lengths
-    use fuge_load_balance, only: BESIDE
     type(certificate_pass), intent(inout) :: pass
     real(dp), intent(in) :: total
     type(point_space), intent(in) :: space
@@ -388,8 +379,6 @@ contains
   !> The `length` in the data of the points with forces above the least of `pass`, and the terms of their displacements,
   !> each with its share of the forces. `total` as for `unresolved_lengths`.
   subroutine find_data_length(pass, total, space, length, terms)
-    use fuge_certificate_passes, only: certificate_pass, find_arms, sum_terms
-    use fuge_data_scales, only: data_length
     type(certificate_pass), intent(inout) :: pass
     real(dp), intent(in) :: total
     type(point_space), intent(in) :: space
