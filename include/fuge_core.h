@@ -43,7 +43,8 @@ enum {
   FUGE_ERR_ELEMENT = -6,           /* unknown element */
   FUGE_ERR_GRID = -7,              /* the grid is not uniform, as this element or call requires */
   FUGE_ERR_NOT_SYMMETRIC = -8,     /* the influence or stiffness matrix is not symmetric:
-                                      asymmetry above 1e-10 of the range of alpha */
+                                      asymmetry above 1e-10 of the range of alpha.  Only
+                                      symmetric problems are contact */
   FUGE_ERR_NOT_DEFINITE = -9,      /* the influence or stiffness matrix is not positive definite:
                                       for alpha, on the forces without resultant */
   FUGE_ERR_NO_EQUILIBRIUM = -10,   /* no contact forces can be in equilibrium with this load:

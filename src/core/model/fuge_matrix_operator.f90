@@ -341,7 +341,8 @@ contains
 
   !> Refuse a matrix (at least n, n) that its survey found not finite, too large or not symmetric.
   !>
-  !> An asymmetry up to 1e-10 of the range of the coefficients passes as rounding.
+  !> An asymmetry up to 1e-10 of the range of the coefficients passes as rounding. Contact is symmetric: another linear
+  !> complementarity problem, such as a game or a program of optimisation with its multipliers, is none of fuge's.
   !> Errors: FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OVERFLOW.
   pure subroutine judge_survey(alpha, survey, info)
     real(dp), intent(in), contiguous :: alpha(:, :)
@@ -364,7 +365,8 @@ contains
     call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//index_text(i)//','//index_text(j)//') and alpha(' &
       //index_text(j)//','//index_text(i)//') differ by '//text(abs(alpha(i, j) - alpha(j, i))) &
       //' (coefficients from '//text(minval(alpha(:n, :)))//' to '//text(maxval(alpha(:n, :))) &
-      //'): if that is rounding, pass (alpha + alpha^T)/2')
+      //'): if that is rounding, pass (alpha + alpha^T)/2; if not, it is no contact problem, and the mean has another ' &
+      //'answer')
   end subroutine judge_survey
 
   pure subroutine check_finite_coefficients(alpha, info)
