@@ -15,6 +15,16 @@ function(fuge_set_warnings target)
   endif()
 endfunction()
 
+# fuge_limit_frames(target): no procedure takes more than 16 kB of the stack, because threads may have 128 kB of it, as
+# those of musl have by default. Sanitizers make frames larger.
+function(fuge_limit_frames target)
+  string(TOUPPER "${CMAKE_BUILD_TYPE}" configuration)
+  if(FUGE_WERROR AND NOT "${CMAKE_Fortran_FLAGS} ${CMAKE_Fortran_FLAGS_${configuration}}" MATCHES "-fsanitize")
+    target_compile_options(${target} PRIVATE
+      "$<$<OR:$<COMPILE_LANG_AND_ID:Fortran,GNU>,$<COMPILE_LANG_AND_ID:C,GNU>>:-Wframe-larger-than=16384>")
+  endif()
+endfunction()
+
 # fuge_set_legacy_warnings(target): FORTRAN 77 in fixed form, without interfaces.
 function(fuge_set_legacy_warnings target)
   set(is_gnu_fortran "$<COMPILE_LANG_AND_ID:Fortran,GNU>")

@@ -185,13 +185,12 @@ contains
     real(dp), intent(in) :: e_star
     real(dp), intent(inout) :: alpha(:, :)
     integer, intent(out) :: stat
-    type(rectangle_kernel), allocatable :: kernel
+    type(rectangle_kernel) :: kernel
     logical :: equal
     integer :: first, last, j, n
 
-    allocate (kernel, stat=stat)
+    call new_rectangle_kernel(HALFSPACE_FACTOR/double_double(e_star, 0.0_dp), kernel, stat)
     if (stat /= 0) return
-    call new_rectangle_kernel(HALFSPACE_FACTOR/double_double(e_star, 0.0_dp), kernel)
     n = size(cells%x)
     equal = cells%element == FUGE_CENTRE .or. (all(abs(cells%width_x - cells%width_x(1)) <= 0.0_dp) &
                                                .and. all(abs(cells%width_y - cells%width_y(1)) <= 0.0_dp))

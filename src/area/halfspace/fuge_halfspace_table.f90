@@ -34,18 +34,18 @@ contains
     integer, intent(in) :: element, begin, rows
     real(dp), intent(inout) :: table(0:, begin:)
     integer, intent(out) :: stat
-    type(rectangle_kernel), allocatable :: kernel
+    type(rectangle_kernel) :: kernel
     type(double_double) :: factor, offset
     real(dp), allocatable :: near(:, :), x_high(:), x_low(:)
     real(dp) :: observed(2)
     integer :: near_x, near_y, first, i, j
 
-    allocate (kernel, x_high(0:size(table, 1) - 1), x_low(0:size(table, 1) - 1), stat=stat)
-    if (stat /= 0) return
     factor = HALFSPACE_FACTOR/double_double(e_star, 0.0_dp)
+    call new_rectangle_kernel(factor, kernel, stat)
+    if (stat == 0) allocate (x_high(0:size(table, 1) - 1), x_low(0:size(table, 1) - 1), stat=stat)
+    if (stat /= 0) return
     observed = spacing
     if (element == FUGE_CENTRE) observed = 0.0_dp
-    call new_rectangle_kernel(factor, kernel)
     call set_widths(kernel, observed, spacing)
     near_x = near_count(observed, spacing, 1, size(table, 1))
     near_y = near_count(observed, spacing, 2, rows)

@@ -37,13 +37,14 @@ module fuge_rectangle_influence
 
 contains
 
-  !> `factor` of all coefficients: one over length per force times length.
-  pure subroutine new_rectangle_kernel(factor, kernel)
+  !> `factor` of all coefficients: one over length per force times length. `stat` as in an allocate statement.
+  pure subroutine new_rectangle_kernel(factor, kernel, stat)
     type(double_double), intent(in) :: factor
     type(rectangle_kernel), intent(out) :: kernel
+    integer, intent(out) :: stat
 
     kernel%factor = factor
-    call new_cosine_powers(kernel%powers)
+    call new_cosine_powers(kernel%powers, stat)
   end subroutine new_rectangle_kernel
 
   !> The next pairs have the widths `observed` (2), 0 for points, and `loaded` (2), along x and y; length.

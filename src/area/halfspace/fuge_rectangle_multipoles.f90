@@ -22,10 +22,10 @@ module fuge_rectangle_multipoles
   real(dp), parameter, public :: FAR_RATIO = 0.18_dp
   real(dp), parameter :: ROUNDING = epsilon(1.0_dp)/32.0_dp
 
-  !> Polynomials that do not depend on the rectangles.
+  !> Polynomials that do not depend on the rectangles; too many for the stack of a small thread.
   type, public :: cosine_powers
     !> Coefficient of x**(2 k) y**(2 (m - k)) in a(j, m) |q|**(2 m) cos(2 j phi), q = (x, y): (k, j, m).
-    real(dp) :: coefficient(0:HIGHEST_ORDER, 0:HIGHEST_ORDER, 0:HIGHEST_ORDER) = 0.0_dp
+    real(dp), allocatable :: coefficient(:, :, :)
   end type cosine_powers
 
   !> The multipoles of a pair of rectangles.
@@ -37,12 +37,15 @@ module fuge_rectangle_multipoles
 contains
 
   !> The polynomials, by the recurrence of |q|**(2 j) cos(2 j phi), which is that of Chebyshev's
-  !> polynomials of x**2 - y**2 and x**2 + y**2.
-  pure subroutine new_cosine_powers(powers)
+  !> polynomials of x**2 - y**2 and x**2 + y**2. `stat` as in an allocate statement.
+  pure subroutine new_cosine_powers(powers, stat)
     type(cosine_powers), intent(out) :: powers
+    integer, intent(out) :: stat
     real(dp), dimension(0:HIGHEST_ORDER) :: cosine, former, latter
     integer :: j, m
 
+    allocate (powers%coefficient(0:HIGHEST_ORDER, 0:HIGHEST_ORDER, 0:HIGHEST_ORDER), source=0.0_dp, stat=stat)
+    if (stat /= 0) return
     cosine = 0.0_dp
     cosine(0) = 1.0_dp
     former = 0.0_dp

@@ -3,7 +3,7 @@ module fuge_input_deck
   use fuge_mesh_type, only: NAME_LENGTH
   use fuge_number_text, only: text
   use fuge_path_list, only: count_paths
-  use fuge_status, only: fuge_info
+  use fuge_status, only: fuge_info, require_memory
   use fuge_text_columns, only: after_blanks
   use fuge_text_numbers, only: quoted
   use fuge_text_reader, only: text_file
@@ -38,7 +38,7 @@ module fuge_input_deck
     character(len=NAME_LENGTH) :: keyword = ''
     integer :: parameters = 0
     character(len=NAME_LENGTH) :: name(MOST_PARAMETERS) = ''
-    character(len=VALUE_LENGTH) :: value(MOST_PARAMETERS) = ''
+    character(len=VALUE_LENGTH), allocatable :: value(:)
     !> The last line ended with a comma.
     logical, private :: continued = .false.
   contains
@@ -71,7 +71,11 @@ contains
     class(input_deck), intent(inout) :: self
     character(len=*), intent(in) :: path
     type(fuge_info), intent(inout) :: info
+    integer :: stat
 
+    allocate (self%value(MOST_PARAMETERS), stat=stat)
+    call require_memory(stat, 'the parameters of a deck', info)
+    if (stat /= 0) return
     self%folder = path(:scan(path, '/\', back=.true.))
     self%depth = 1
     self%number(1) = 1

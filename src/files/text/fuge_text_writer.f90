@@ -9,7 +9,7 @@ module fuge_text_writer
   private
 
   !> Bytes that are written at a time.
-  integer, parameter :: BUFFER_LENGTH = 16384
+  integer, parameter :: BUFFER_LENGTH = 8192
   character, parameter :: LINE_FEED = achar(10)
 
   !> A new file. After the first error nothing more is written, and `finish` reports the error.

@@ -35,7 +35,8 @@ module fuge_cell_clusters
     real(dp), allocatable :: middle(:), half_length(:), force(:, :), moment(:, :)
     !> The nodes on -1 .. 1, and T_0, T_1, .. at each of them. Their rounding has to be as small as that: the sum of the
     !> forces is exact only as far as those of the polynomials vanish.
-    real(dp) :: node(ORDER) = 0.0_dp, polynomial(ORDER, 0:ORDER - 1) = 0.0_dp
+    real(dp) :: node(ORDER) = 0.0_dp
+    real(dp), allocatable :: polynomial(:, :)
   contains
     procedure :: build
     procedure :: fill
@@ -60,7 +61,8 @@ contains
       most = 2*most
     end do
     allocate (self%first(most), self%last(most), self%child(most), self%middle(most), self%half_length(most), &
-              self%force(ORDER, most), self%moment(0:ORDER - 1, most), stat=stat)
+              self%force(ORDER, most), self%moment(0:ORDER - 1, most), &
+              self%polynomial(ORDER, 0:ORDER - 1), stat=stat)
     call require_memory(stat, 'clusters of', size(centre), 'cells', info)
     if (stat /= 0) return
     call set_nodes(self%node, self%polynomial)

@@ -19,7 +19,7 @@ module fuge_area_field
   !> Points of a batch, at most.
   integer, parameter :: MOST_POINTS = 64
   !> Forces that are collected before they are summed, at most.
-  integer, parameter :: SOURCES = 1024
+  integer, parameter :: SOURCES = 512
   !> Up to this number of points, a sum over all loads takes less time than the moments of clusters.
   integer, parameter :: FEW_POINTS = 8
   !> A batch is halved if its extent exceeds this fraction of that of the cluster.

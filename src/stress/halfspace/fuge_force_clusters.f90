@@ -51,7 +51,7 @@ module fuge_force_clusters
     type(cluster_grids), allocatable :: grids(:)
     !> Chebyshev points of each class, and the influence of T_k on the force at point i: (k, i, class).
     real(dp) :: point(FINEST, CLASSES) = 0.0_dp
-    real(dp) :: share(FINEST, FINEST, CLASSES) = 0.0_dp
+    real(dp), allocatable :: share(:, :, :)
   end type force_clusters
 
 contains
@@ -77,7 +77,8 @@ contains
       return
     end if
     allocate (order(loads%count), places(loads%count, 2), clusters%box(4, clusters%count), &
-              clusters%moment(FINEST, FINEST, clusters%count), clusters%grids(clusters%count), stat=stat)
+              clusters%moment(FINEST, FINEST, clusters%count), clusters%grids(clusters%count), &
+              clusters%share(FINEST, FINEST, CLASSES), stat=stat)
     if (stat /= 0) return
     order = [(k, k=1, loads%count)]
     places(:, 1) = loads%x
@@ -108,6 +109,7 @@ contains
     real(dp) :: angle
     integer :: class, i, k, q
 
+    clusters%share = 0.0_dp
     do class = 1, CLASSES
       q = CLASS_POINTS(class)
       do i = 1, q

@@ -22,11 +22,11 @@ module fuge_circle_field
   !> Two numbers with a smaller relative difference have the same means up to rounding.
   real(dp), parameter :: CLOSE = 1.0e-8_dp
 
-  !> Angles of the trapezoidal rules.
+  !> Angles of the trapezoidal rules; allocated, because the stack of a thread may be small.
   type, public :: circle_rules
     private
     !> sin(angle), and sin(angle/2)**2.
-    real(dp) :: sine(MOST_ANGLES, MOST_ANGLES) = 0.0_dp, half_square(MOST_ANGLES, MOST_ANGLES) = 0.0_dp
+    real(dp), allocatable :: sine(:, :), half_square(:, :)
   end type circle_rules
 
 contains
@@ -36,6 +36,7 @@ contains
     real(dp) :: angle
     integer :: j, n
 
+    allocate (rules%sine(MOST_ANGLES, MOST_ANGLES), rules%half_square(MOST_ANGLES, MOST_ANGLES), source=0.0_dp)
     do n = 1, MOST_ANGLES
       do j = 1, n
         angle = PI*(real(j, dp) - 0.5_dp)/real(n, dp)

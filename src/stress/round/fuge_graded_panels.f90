@@ -19,9 +19,9 @@ module fuge_graded_panels
   !> The relative error of the quadrature, but for a factor that is large for strong singularities.
   real(dp), parameter :: ERROR = 1.0e-20_dp
 
-  !> Rules of 1 to MOST_NODES nodes on (0, 1).
+  !> Rules of 1 to MOST_NODES nodes on (0, 1); allocated, because the stack of a thread may be small.
   type, public :: panel_rules
-    real(dp) :: node(MOST_NODES, MOST_NODES) = 0.0_dp, weight(MOST_NODES, MOST_NODES) = 0.0_dp
+    real(dp), allocatable :: node(:, :), weight(:, :)
     !> For a rule of n nodes: the least sum of the distances of the singularity from the ends, over the length.
     real(dp) :: reach(SINGULAR_NODES) = 0.0_dp
   end type panel_rules
@@ -32,6 +32,7 @@ contains
     type(panel_rules) :: rules
     integer :: n
 
+    allocate (rules%node(MOST_NODES, MOST_NODES), rules%weight(MOST_NODES, MOST_NODES), source=0.0_dp)
     call gauss_rules(rules%node, rules%weight)
     do n = 1, SINGULAR_NODES
       rules%reach(n) = cosh(-log(ERROR)/real(2*n, dp))

@@ -1,0 +1,95 @@
+/* Solves in a thread with 128 kB of stack, which is what musl gives a thread: answers must be those of a large stack. */
+#define _POSIX_C_SOURCE 200112L
+#include <pthread.h>
+#include <stdlib.h>
+#include "check.h"
+
+enum { SIDE = 12, N = SIDE * SIDE, POINTS = 40, RINGS = 6, LARGE = 4 << 20, SMALL = 128 << 10 };
+
+typedef struct {
+  int failures;
+  double force[3][N], stress[2][6 * POINTS], field[4 * RINGS];
+} record;
+
+static void expect(record *r, int status) {
+  if (status != FUGE_DONE) r->failures++;
+}
+
+static void solve(record *r, const fuge_operator *op, int method, double *force) {
+  double gap[N];
+  fuge_options options;
+  fuge_solver *s = NULL;
+  for (int k = 0; k < N; k++) gap[k] = 0.01 * ((k % SIDE - 5.5) * (k % SIDE - 5.5) + (k / SIDE - 5.5) * (k / SIDE - 5.5));
+  fuge_default_options(&options);
+  options.method = method;
+  options.threads = 1;
+  expect(r, fuge_solver_new(op, &options, &s, NULL, 0));
+  expect(r, fuge_set_gap(s, gap, NULL));
+  expect(r, fuge_set_load(s, 1.0));
+  expect(r, fuge_solve(s));
+  expect(r, fuge_get_force(s, force));
+  fuge_solver_free(&s);
+}
+
+/* The area by a matrix, from cells of a grid and from others, and by FFT; stresses below it, a line and rings. */
+static void *work(void *result) {
+  record *r = result;
+  double *alpha = malloc(sizeof(double) * N * N), x[N], y[N], width[N], force[N];
+  double px[POINTS], py[POINTS], pz[POINTS], radius[RINGS + 1], pressure[RINGS];
+  fuge_operator *op = NULL;
+  for (int k = 0; k < N; k++) {
+    x[k] = k % SIDE;
+    y[k] = k / SIDE;
+    width[k] = 1.0;
+    force[k] = 1.0 + 0.1 * (k % 7);
+  }
+  for (int k = 0; k < POINTS; k++) {
+    px[k] = 0.3 * k;
+    py[k] = 5.0;
+    pz[k] = 0.1 + 0.05 * k;
+  }
+  for (int k = 0; k <= RINGS; k++) radius[k] = 0.5 * k;
+  for (int k = 0; k < RINGS; k++) pressure[k] = 1.0 + k;
+  expect(r, fuge_halfspace_matrix(N, x, y, width, width, 1.0, FUGE_MEAN, 0, 0, alpha, N, NULL, 0));
+  expect(r, fuge_operator_dense(N, alpha, N, &op, NULL, 0));
+  solve(r, op, FUGE_ACTIVE_SET, r->force[0]);
+  fuge_operator_free(&op);
+  expect(r, fuge_operator_halfspace(SIDE, SIDE, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &op, NULL, 0));
+  solve(r, op, FUGE_ITERATIVE, r->force[1]);
+  fuge_operator_free(&op);
+  width[3] = 0.5;
+  expect(r, fuge_halfspace_matrix(N, x, y, width, width, 1.0, FUGE_MEAN, 0, 0, alpha, N, NULL, 0));
+  expect(r, fuge_operator_dense(N, alpha, N, &op, NULL, 0));
+  solve(r, op, FUGE_TABLEAU, r->force[2]);
+  fuge_operator_free(&op);
+  expect(r, fuge_halfspace_stress(N, x, y, width, width, force, 0.3, 0, 0, POINTS, px, py, pz, r->stress[0], NULL, 0));
+  expect(r, fuge_halfplane_stress(SIDE, x, width, force, FUGE_MEAN, 0, POINTS, px, pz, r->stress[1], NULL, 0));
+  expect(r, fuge_ring_stress(RINGS, radius, pressure, 0.3, RINGS, radius, pz, r->field, NULL, 0));
+  free(alpha);
+  return NULL;
+}
+
+static void run(record *r, size_t stack) {
+  pthread_t thread;
+  pthread_attr_t attributes;
+  CHECK_INT(pthread_attr_init(&attributes), 0);
+  CHECK_INT(pthread_attr_setstacksize(&attributes, stack), 0);
+  CHECK_INT(pthread_create(&thread, &attributes, work, r), 0);
+  CHECK_INT(pthread_join(thread, NULL), 0);
+  CHECK_INT(pthread_attr_destroy(&attributes), 0);
+  CHECK_INT(r->failures, 0);
+}
+
+int main(void) {
+  record *large = calloc(1, sizeof *large), *small = calloc(1, sizeof *small);
+  CHECK(large && small);
+  if (large && small) {
+    run(small, SMALL);
+    run(large, LARGE);
+    CHECK(large->force[0][N / 2 + SIDE / 2] > 0.0 && large->stress[0][0] < 0.0 && large->field[0] < 0.0);
+    CHECK(memcmp(small, large, sizeof *small) == 0);
+  }
+  free(large);
+  free(small);
+  return check_summary();
+}
