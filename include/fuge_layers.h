@@ -11,7 +11,7 @@
  *                       layers; HUGE_VAL: a rigid base; force per length^2
  *   poisson        in   layers + 1: 0 .. 0.5, 0.5 for rubber
  *   bonded         in   1: all interfaces are bonded; 0: they slide without friction, and do not
- *                       come off
+ *                       come off; others are FUGE_ERR_OPTION
  *   e_star_other   in   E/(1 - nu^2) of the other body, a half-space; HUGE_VAL: it is rigid
  * Layers count from 1 in messages.  What is bonded to a layer of the same material is one with
  * it.  The ratio of two thicknesses, and of two moduli, is at most 1e8; all of them are in

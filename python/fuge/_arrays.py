@@ -27,6 +27,16 @@ def number(name: str, value: Any) -> float:
         raise TypeError(f"{name} must be a real number, not {type(value).__name__}") from None
 
 
+def modulus(value: Any) -> float:
+    """The combined modulus e_star of two half-spaces; layers have more than that."""
+    if hasattr(value, "e_star"):
+        raise TypeError(
+            f"e_star must be a real number, not {type(value).__name__}: of layers take the methods halfplane_matrix, "
+            "halfspace_matrix and ring_matrix, or LayeredHalfplaneOperator and LayeredHalfspaceOperator"
+        )
+    return number("e_star", value)
+
+
 def optional_number(name: str, value: Any) -> Doubles | None:
     """A number, or None, for a parameter that may be NULL."""
     return None if value is None else np.array([number(name, value)])
@@ -75,6 +85,8 @@ def array(name: str, value: ArrayLike) -> NDArray[Any]:
             Status.ERR_NOT_FINITE,
             f"{name} has masked elements, which are no numbers: replace them (numpy.ma.filled) or leave them out",
         )
+    if hasattr(value, "toarray"):
+        raise TypeError(f"{name} is a sparse matrix, but must be an array of all numbers: pass {name}.toarray()")
     return np.asarray(value)
 
 
@@ -147,6 +159,13 @@ def flags(name: str, value: ArrayLike, *shapes: Shape) -> Ints:
     if shapes:
         check_shape(name, found.shape, *shapes)
     return np.ascontiguousarray(found, dtype=np.intc)
+
+
+def flag(name: str, value: Any) -> int:
+    """One boolean as a C int."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} must be True or False, not {value!r}")
+    return int(value)
 
 
 def spread_flags(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Ints:

@@ -47,6 +47,9 @@ def _topography(path: str, what: str) -> Any:
     try:
         return SurfaceTopography.read_topography(path)
     except Exception as reason:
+        # Where no reader takes the file, the message has what each of its dozens of readers says.
+        if type(reason).__name__ == "CannotDetectFileFormat":
+            raise _failure(what, ", but SurfaceTopography does not read it: is it broken or cut off?") from None
         raise _failure(what, f", but SurfaceTopography does not read it: {reason}") from reason
 
 

@@ -78,7 +78,7 @@ def displacement_shares(e1: float, e2: float) -> tuple[float, float]:
 
 
 def halfplane_matrix(
-    x: ArrayLike, width: ArrayLike, e_star: float, element: Element, *, symmetric: bool = False
+    x: ArrayLike, width: ArrayLike, e_star: float, element: Element = "mean", *, symmetric: bool = False
 ) -> NDArray[np.float64]:
     """Influence matrix of cells on an elastic half-plane.
 
@@ -114,7 +114,7 @@ def halfplane_matrix(
     alpha = np.empty((n, n), order="F")
     widths = _arrays.spread("width", width, n)
     chosen = ELEMENTS.number(element)
-    modulus = _arrays.number("e_star", e_star)
+    modulus = _arrays.modulus(e_star)
     call("fuge_halfplane_matrix", n, centres, widths, modulus, chosen, int(bool(symmetric)), alpha, n)
     return alpha
 

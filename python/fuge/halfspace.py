@@ -25,7 +25,7 @@ def halfspace_matrix(
     width_x: ArrayLike,
     width_y: ArrayLike,
     e_star: float,
-    element: AreaElement,
+    element: AreaElement = "mean",
     *,
     symmetric_x: bool = False,
     symmetric_y: bool = False,
@@ -65,7 +65,7 @@ def halfspace_matrix(
         _arrays.vector("y", y, n),
         _arrays.spread("width_x", width_x, n),
         _arrays.spread("width_y", width_y, n),
-        _arrays.number("e_star", e_star),
+        _arrays.modulus(e_star),
         AREA_ELEMENTS.number(element),
         int(bool(symmetric_x)),
         int(bool(symmetric_y)),
@@ -99,7 +99,7 @@ def ring_matrix(radius: ArrayLike, e_star: float) -> NDArray[np.float64]:
     radii = _arrays.vector("radius", radius)
     n = max(radii.size - 1, 0)
     alpha = np.empty((n, n), order="F")
-    call("fuge_ring_matrix", n, radii, _arrays.number("e_star", e_star), ELEMENTS.number("mean"), alpha, n)
+    call("fuge_ring_matrix", n, radii, _arrays.modulus(e_star), ELEMENTS.number("mean"), alpha, n)
     return alpha
 
 
@@ -131,7 +131,7 @@ def ring_displacement(radius: ArrayLike, force: ArrayLike, e_star: float, place:
         n,
         radii,
         _arrays.vector("force", force, n),
-        _arrays.number("e_star", e_star),
+        _arrays.modulus(e_star),
         places.size,
         places,
         displacement,
@@ -184,7 +184,7 @@ def hertz_ellipse(radius_x: float, radius_y: float, e_star: float, load: float) 
         "fuge_hertz_ellipse",
         _arrays.number("radius_x", radius_x),
         _arrays.number("radius_y", radius_y),
-        _arrays.number("e_star", e_star),
+        _arrays.modulus(e_star),
         _arrays.number("load", load),
         *found,
     )

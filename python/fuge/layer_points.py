@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from fuge import _arrays
 from fuge._calls import call
 from fuge.halfplane import Element
-from fuge.layers import Layers
+from fuge.layers import Layers, layers_of
 from fuge.stress import rectangles, strips
 
 
@@ -29,7 +29,7 @@ def _at_points(
     sides = _arrays.spread_flags("below", below, shape)
     result = np.empty((*shape, components))
     shapes = dict.fromkeys([coordinate for coordinate, _ in coordinates] + ["point"], shape)
-    call(name, *layers.arguments()[:-1], *arguments, flat[0].size, *flat, sides, result, shapes=shapes)
+    call(name, *layers_of(layers)[:-1], *arguments, flat[0].size, *flat, sides, result, shapes=shapes)
     return result
 
 

@@ -19,7 +19,7 @@ from fuge import _arrays
 from fuge._calls import call
 from fuge._library import struct, struct_array
 from fuge.halfplane import Element
-from fuge.layers import Layers
+from fuge.layers import Layers, layers_of
 from fuge.operators import AreaBoundary, Boundary
 from fuge.stress_grid import area_arguments, line_arguments
 from fuge.stress_peak import MEASURES, Measure
@@ -90,7 +90,7 @@ def _at_depths(
     depths = _arrays.vector("depth", np.atleast_1d(_arrays.array("depth", depth)))
     sides = _arrays.spread_flags("below", below, depths.shape)
     result = np.empty((depths.size, *grid, components))
-    body = layers.arguments()[:-1]
+    body = layers_of(layers)[:-1]
     call(name, *body, *arguments, depths.size, depths, sides, result, shapes={"force": grid})
     return result
 
@@ -199,7 +199,7 @@ def _place(cell: int, grid: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def _interfaces(name: str, layers: Layers, arguments: list[Any], grid: tuple[int, ...]) -> list[InterfaceStress]:
-    body = layers.arguments()[:-1]
+    body = layers_of(layers)[:-1]
     count = np.zeros(1, dtype=np.intc)
     peaks = struct_array("fuge_interface_stress", body[0] + 1)
     call(name, *body, *arguments, count, peaks, shapes={"force": grid})
@@ -247,7 +247,7 @@ def layered_halfspace_interfaces(
 
 def _peak(name: str, layers: Layers, arguments: list[Any], measure: Measure, grid: tuple[int, ...]) -> LayerPeak:
     peak = struct("fuge_layer_peak")
-    body = layers.arguments()[:-1]
+    body = layers_of(layers)[:-1]
     call(name, *body, *arguments, MEASURES.number(measure), ctypes.byref(peak), shapes={"force": grid})
     return LayerPeak(peak.value, peak.depth, peak.layer, _place(peak.cell, grid), np.array(peak.tensor))
 

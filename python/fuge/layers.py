@@ -37,6 +37,11 @@ class Layers:
     ----------
     e_star : float
         1/e_star = (1 - nu^2)/E of the top layer + 1/e_star_other: the modulus of short waves.
+
+    Raises
+    ------
+    InputError
+        A thickness or a modulus is not positive, a Poisson's ratio is out of range, or numbers do not fit together.
     """
 
     thickness: ArrayLike
@@ -44,6 +49,10 @@ class Layers:
     poisson: ArrayLike
     bonded: bool = True
     e_star_other: float = np.inf
+
+    def __post_init__(self) -> None:
+        # No waves: only the layers are checked.
+        self.compliance([])
 
     def arguments(self) -> list[Any]:
         """The arguments of C functions that take layers: their number to e_star_other."""
@@ -54,7 +63,7 @@ class Layers:
             thickness,
             _arrays.spread("young", self.young, materials),
             _arrays.spread("poisson", self.poisson, materials),
-            int(bool(self.bonded)),
+            _arrays.flag("bonded", self.bonded),
             _arrays.number("e_star_other", self.e_star_other),
         ]
 
@@ -110,7 +119,7 @@ class Layers:
         return compliance
 
     def halfplane_matrix(
-        self, x: ArrayLike, width: ArrayLike, element: Element, *, symmetric: bool = False
+        self, x: ArrayLike, width: ArrayLike, element: Element = "mean", *, symmetric: bool = False
     ) -> NDArray[np.float64]:
         """Influence matrix of cells in plane strain; the arguments are those of :func:`halfplane_matrix`."""
         centres = _arrays.vector("x", x)
@@ -127,7 +136,7 @@ class Layers:
         y: ArrayLike,
         width_x: ArrayLike,
         width_y: ArrayLike,
-        element: AreaElement,
+        element: AreaElement = "mean",
         *,
         symmetric_x: bool = False,
         symmetric_y: bool = False,
@@ -156,6 +165,16 @@ class Layers:
         alpha = np.empty((max(n, 0), max(n, 0)), order="F")
         call("fuge_layered_ring_matrix", *self.arguments(), n, radii, alpha, n)
         return alpha
+
+
+def layers_of(layers: Any) -> list[Any]:
+    """The arguments of C functions for a body of layers."""
+    if not isinstance(layers, Layers):
+        raise TypeError(
+            f"layers must be Layers, not {type(layers).__name__}: a body of one material is "
+            "Layers([], young, poisson), or a half-space, which has operators and functions of its own"
+        )
+    return layers.arguments()
 
 
 @dataclass(frozen=True, eq=False)
@@ -303,7 +322,7 @@ class LayeredHalfplaneOperator(HalfplaneOperator):
         self.layers = layers
         width = _arrays.number("spacing", spacing)
         kind = [ELEMENTS.number(element), BOUNDARIES.number(boundary)]
-        self._create("fuge_operator_layered_halfplane", self.n, width, *layers.arguments(), *kind)
+        self._create("fuge_operator_layered_halfplane", self.n, width, *layers_of(layers), *kind)
         self.e_star = layers.e_star
         self.cells = replace(Cells((self.n,), (width,), boundary, element), homogeneous=False)
 
@@ -345,7 +364,7 @@ class LayeredHalfspaceOperator(HalfspaceOperator):
         spacing = _arrays.number("spacing_x", spacing_x), _arrays.number("spacing_y", spacing_y)
         self.layers = layers
         kind = [AREA_ELEMENTS.number(element), AREA_BOUNDARIES.number(boundary)]
-        self._create("fuge_operator_layered_halfspace", columns, rows, *spacing, *layers.arguments(), *kind)
+        self._create("fuge_operator_layered_halfspace", columns, rows, *spacing, *layers_of(layers), *kind)
         self.n = columns * rows
         self.grid = (rows, columns)
         self.e_star = layers.e_star

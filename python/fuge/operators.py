@@ -185,7 +185,7 @@ class HalfplaneOperator(GridOperator):
         boundary: Boundary = "free",
     ) -> None:
         self.n = _arrays.integer("n", n)
-        modulus, width = _arrays.number("e_star", e_star), _arrays.number("spacing", spacing)
+        modulus, width = _arrays.modulus(e_star), _arrays.number("spacing", spacing)
         self._create(
             "fuge_operator_halfplane",
             self.n,
@@ -249,7 +249,7 @@ class HalfspaceOperator(GridOperator):
     ) -> None:
         columns, rows = _arrays.integer("nx", nx), _arrays.integer("ny", ny)
         spacing = _arrays.number("spacing_x", spacing_x), _arrays.number("spacing_y", spacing_y)
-        modulus = _arrays.number("e_star", e_star)
+        modulus = _arrays.modulus(e_star)
         self._create(
             "fuge_operator_halfspace",
             columns,

@@ -88,6 +88,8 @@ def check_matrix(operator: Operator) -> None:
 def load_path(operator: Operator | ArrayLike, gap: ArrayLike, load: float) -> Path:
     """The exact course of the contact as the load of one translation grows from 0.
 
+    For several motions, and for other starts, see :meth:`Solver.follow_path`.
+
     Parameters
     ----------
     operator : DenseOperator or array_like, shape (n, n)
@@ -111,6 +113,12 @@ def load_path(operator: Operator | ArrayLike, gap: ArrayLike, load: float) -> Pa
     body = operator if isinstance(operator, Operator) else DenseOperator(operator)
     check_matrix(body)
     gaps = _arrays.vector("gap", gap, body.n)
+    if np.ndim(load) > 0:
+        raise error(
+            Status.ERR_SIZE,
+            f"load has the shape {np.shape(load)}, but load_path has one motion with its load: for several take "
+            "Solver.follow_path",
+        )
     end = _arrays.number("load", load)
     with body._handle.reading() as pointer:
         path = collect_path(body.n, 1, lambda *results: call("fuge_load_path", pointer, gaps, end, *results))

@@ -88,6 +88,10 @@ class InstrumentTest(unittest.TestCase):
     def test_what_cannot_be_read(self):
         with stub(ValueError("it is cut off")):
             self.refuses("is an x3p file (ISO 25178-72), but SurfaceTopography does not read it: it is cut off")
+        # What dozens of readers say of a file that none of them takes.
+        complaints = type("CannotDetectFileFormat", (Exception,), {})("no reader\nx3p: bad\nsur: bad\n")
+        with stub(complaints):
+            self.refuses("but SurfaceTopography does not read it: is it broken or cut off?")
         line = StubTopography(np.ones(4))
         line.dim = 1
         with stub(line):

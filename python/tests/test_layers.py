@@ -68,12 +68,36 @@ class Bodies(unittest.TestCase):
             (([[0.1]], [1.0, 2.0], 0.3), r"thickness has the shape \(1, 1\)"),
         ):
             with self.assertRaisesRegex(fuge.InputError, words):
-                fuge.Layers(*arguments).compliance(1.0)
+                fuge.Layers(*arguments)
         with self.assertRaisesRegex(fuge.InputError, "q 2 = -1"):
             COATED.compliance([1.0, -1.0])
-        self.assertRaises(TypeError, fuge.Layers("thin", [1.0, 2.0], 0.3).compliance, 1.0)
+        self.assertRaises(TypeError, fuge.Layers, "thin", [1.0, 2.0], 0.3)
+        with self.assertRaisesRegex(TypeError, "bonded must be True or False, not 7"):
+            fuge.Layers(0.1, [1.0, 2.0], 0.3, bonded=7)
         self.assertRaises(fuge.InputError, COATED.ring_matrix, [])
         self.assertRaises(fuge.InputError, COATED.halfplane_matrix, [0.0], 1.0, "round")
+
+    def test_numbers_and_layers_in_the_place_of_each_other(self):
+        radius, force = [0.0, 1.0], np.ones(2)
+        for call in (
+            lambda: fuge.LayeredHalfplaneOperator(2, 1.0, 2e5),
+            lambda: fuge.LayeredHalfspaceOperator(2, 2, 1.0, 1.0, 2e5),
+            lambda: fuge.layered_halfplane_stress_grid(2e5, 1.0, force, [1.0]),
+            lambda: fuge.layered_halfplane_stress(2e5, [0.0, 1.0], 1.0, force, [0.0], [1.0]),
+            lambda: fuge.layered_halfplane_peak(2e5, 1.0, force),
+            lambda: fuge.layered_halfplane_interfaces(2e5, 1.0, force),
+        ):
+            with self.assertRaisesRegex(TypeError, r"layers must be Layers, not float: .* Layers\(\[\], young"):
+                call()
+        for call in (
+            lambda: fuge.ring_matrix(radius, COATED),
+            lambda: fuge.halfplane_matrix([0.0], 1.0, COATED),
+            lambda: fuge.halfspace_matrix([0.0], [0.0], 1.0, 1.0, COATED),
+            lambda: fuge.HalfplaneOperator(2, 1.0, COATED),
+            lambda: fuge.HalfspaceOperator(2, 2, 1.0, 1.0, COATED),
+        ):
+            with self.assertRaisesRegex(TypeError, "e_star must be a real number, not Layers: .*ring_matrix"):
+                call()
 
 
 class Operators(unittest.TestCase):

@@ -358,6 +358,18 @@ class Grids(QuietRims):
         with self.assertRaisesRegex(fuge.UnsupportedError, words):
             fuge.Solver(operator).follow_path([1.0, 2.0, 3.0])
 
+    def test_matrices_and_operators_have_one_default(self):
+        x = np.arange(2.0)
+        line, area = fuge.halfplane_matrix(x, 1.0, 2.0), fuge.halfspace_matrix(x, 0.0 * x, 1.0, 1.0, 2.0)
+        force = [1.0, 0.0]
+        np.testing.assert_allclose(fuge.HalfplaneOperator(2, 1.0, 2.0) @ force, line @ force, rtol=1e-13)
+        np.testing.assert_allclose(
+            np.ravel(fuge.HalfspaceOperator(2, 1, 1.0, 1.0, 2.0) @ [force]), area @ force, rtol=1e-13
+        )
+        same = fuge.Layers([], [2.0], 0.0)
+        np.testing.assert_allclose(same.halfplane_matrix(x, 1.0), line, rtol=1e-13)
+        np.testing.assert_allclose(same.halfspace_matrix(x, 0.0 * x, 1.0, 1.0), area, rtol=1e-13)
+
     def test_elements_that_fit(self):
         for call in (
             lambda: fuge.HalfspaceOperator(2, 1, 1.0, 1.0, 1.0, "hat"),

@@ -175,6 +175,23 @@ class Errors(unittest.TestCase):
             fuge.MatrixError, fuge.Status.ERR_NOT_SYMMETRIC, lambda: fuge.solve(matrix, GAP, 2.0), "alpha[1, 0]"
         )
 
+    def test_sparse_matrix(self):
+        class Sparse:
+            def toarray(self):
+                raise AssertionError
+
+        with self.assertRaisesRegex(TypeError, r"alpha is a sparse matrix, .*: pass alpha\.toarray\(\)"):
+            fuge.solve(Sparse(), GAP, 2.0)
+
+    def test_path_of_several_loads(self):
+        self.refused(
+            fuge.InputError,
+            fuge.Status.ERR_SIZE,
+            lambda: fuge.load_path(ALPHA, GAP, [1.0, 2.0]),
+            "load has the shape (2,)",
+            "Solver.follow_path",
+        )
+
     def test_not_definite(self):
         matrix = [[-1.0, 0.0], [0.0, -1.0]]
         self.refused(fuge.MatrixError, fuge.Status.ERR_NOT_DEFINITE, lambda: fuge.solve(matrix, GAP, 2.0))

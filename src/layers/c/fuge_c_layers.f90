@@ -11,7 +11,7 @@ module fuge_c_layers
     fuge_layered_ring_matrix
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_OPTION, FUGE_ERR_SIZE
   implicit none
   private
 
@@ -175,6 +175,8 @@ contains
       call find_array(layers + 1, young, 'young', moduli, info)
       call find_array(layers + 1, poisson, 'poisson', ratios, info)
     end if
+    if (.not. info%failed() .and. all(bonded /= [0, 1])) call report(info, FUGE_ERR_OPTION, 'bonded is ' &
+      //text(int(bonded))//': take 1 for bonded interfaces, or 0 for those that slide')
     if (info%failed()) return
     allocate (joined(layers), stat=stat)
     call require_memory(stat, '', int(layers), 'layers', info)

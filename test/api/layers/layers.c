@@ -182,7 +182,9 @@ static const bad_body BAD_BODIES[] = {
   {{LAYERS, THICKNESS, RIGID_LAYER, POISSON, 1, HUGE_VAL}, FUGE_ERR_MODULUS, "rigid base"},
   {{LAYERS, THICKNESS, YOUNG, BAD_POISSON, 1, HUGE_VAL}, FUGE_ERR_MODULUS, "poisson 3 = "},
   {{LAYERS, THICKNESS, YOUNG, POISSON, 1, 0.0}, FUGE_ERR_MODULUS, "e_star_other = 0."},
-  {{LAYERS, THICKNESS, YOUNG, POISSON, 1, NAN}, FUGE_ERR_MODULUS, "e_star_other = NaN"}
+  {{LAYERS, THICKNESS, YOUNG, POISSON, 1, NAN}, FUGE_ERR_MODULUS, "e_star_other = NaN"},
+  {{LAYERS, THICKNESS, YOUNG, POISSON, 7, HUGE_VAL}, FUGE_ERR_OPTION, "bonded is 7"},
+  {{LAYERS, THICKNESS, YOUNG, POISSON, -1, HUGE_VAL}, FUGE_ERR_OPTION, "take 1 for bonded interfaces"}
 };
 
 /* What makes no layers is refused by all functions, which leave their results alone. */
