@@ -426,7 +426,9 @@ void fuge_links_free(fuge_links **links);
  * node moves along it.
  *   count      degrees of freedom of the node, 1 .. 6
  *   dof        which they are, from 0; -1: does not move
- *   direction  a component for each, of any length but zero
+ *   direction  a component for each, not all zero: the first three are translations, which are
+ *              scaled to length 1 together, the others rotations, whose components are lever
+ *              arms, length.  So the rotation of a plane frame is a fourth or a later one
  *   law        NULL: a hard link
  *   name       may be NULL
  * Errors of these three, nothing is added: FUGE_ERR_SIZE, FUGE_ERR_DOF where no degree of
@@ -460,6 +462,8 @@ int fuge_body_set_links(fuge_body *body, const fuge_links *links);
 /* Pose the problem of the links of a condensed body: the solver, whose operator is the
  * influence matrix of the body, gets gaps, plays, compliances, limits, rigid modes and their
  * resultants, in place of all that was set before.  After another load of the body pose it again.
+ * With FUGE_DONE the message of the links names those that can never act, because supports of
+ * the body hold their ends and stand still.
  * FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY; the message is that of the links. */
 int fuge_links_pose(fuge_links *links, const fuge_body *body, fuge_solver *s);
 

@@ -15,7 +15,7 @@ from fuge._library import function
 from fuge._messages import in_python
 from fuge.cases import Cases
 from fuge.columns import compressed, is_sparse, require_sparse, stacked
-from fuge.errors import Status, error
+from fuge.errors import Status, Warning, error, warn
 from fuge.links import Links
 
 if TYPE_CHECKING:
@@ -251,6 +251,8 @@ class Body(Owner):
             Some cases failed or have a warning; see `status` and `message` of the result.
         ResidualWarning
             Displacements are out of balance by more than 1e-10 of the forces; `message` tells in which cases.
+        Warning
+            Links that can never act, because fixed degrees of freedom hold their ends.
 
         Raises
         ------
@@ -261,6 +263,11 @@ class Body(Owner):
         number = len(forces)
         moved = None if supports is None else _arrays.doubles("supports", supports, (number, self._fixed))
         solver, links = self._pose()
+        if moved is None:
+            with links._handle.use() as pointer:
+                idle = links._read_message(pointer)
+            if idle:
+                warn(Warning(idle, Status.DONE))
         displacement, resultant = np.empty((number, self._n)), np.empty((number, self._mode_count()))
         refused = np.zeros(number, dtype=np.intc)
         with self._handle.use() as pointer:

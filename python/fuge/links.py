@@ -75,7 +75,9 @@ class Links(Owner):
         dof : array_like of int, shape (count,), or int
             Degrees of freedom of the node, at most 6.
         direction : array_like, shape (count,), or float
-            A component for each, of any length but zero.
+            A component for each, not all of them zero. The first three are translations, which are scaled to length 1
+            together; the others are rotations, whose components are lever arms, length. So the rotation of a plane
+            frame is a fourth component or a later one, with -1 for degrees of freedom that are missing.
         gap : float
             Without load; negative: an interference; length.
         play : float

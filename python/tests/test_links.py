@@ -1,6 +1,7 @@
 """Links of structures: cables, supports that lift off, load cases and mechanisms."""
 
 import unittest
+import warnings
 
 import numpy as np
 
@@ -42,6 +43,32 @@ class Structures(unittest.TestCase):
         # Again with the same solver.
         cases = body.solve_cases([[-12.0, -16.0]])
         np.testing.assert_allclose(cases.force, [[10.0]], atol=1e-13)
+
+    def test_links_that_can_never_act(self):
+        links = fuge.Links()
+        links.add_support(0, 1.0, name="pier")
+        links.add_support(1, 1.0)
+        body = fuge.Body(np.diag([100.0, 100.0]))
+        body.fix([0])
+        body.set_links(links)
+        body.condense()
+        with self.assertWarnsRegex(fuge.Warning, "pier can never act: supports of the body hold its ends"):
+            body.solve_cases([[-6.0, -8.0]])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            cases = body.solve_cases([[-6.0, -8.0]], supports=[[0.5]])
+        np.testing.assert_allclose(cases.force, [[0.0, 8.0]], atol=1e-13)
+        np.testing.assert_allclose(cases.gap, [[0.5, 0.0]], atol=1e-13)
+
+    def test_rotations_are_lever_arms(self):
+        links = fuge.Links()
+        links.add_support([-1, 0, -1, -1, -1, 1], [0.0, 2.0, 0.0, 0.0, 0.0, 1.0])
+        body = fuge.Body(np.diag([1.0, 1.0]))
+        body.set_links(links)
+        body.condense()
+        cases = body.solve_cases([[-3.0, -1.0]])
+        np.testing.assert_allclose(cases.force, [[2.0]], atol=1e-13)
+        np.testing.assert_allclose(cases.displacement, [[-1.0, 1.0]], atol=1e-13)
 
     def test_slack_and_yield(self):
         links = fuge.Links()

@@ -46,6 +46,7 @@ module fuge_condensation
     procedure :: pose_cases
     procedure :: recover_cases
     procedure :: move_rigidly
+    procedure :: held_points
     procedure :: clear
   end type fuge_condensed
 
@@ -314,6 +315,22 @@ contains
       u = u + self%held%rigid_modes(:, j)*motion(j)
     end do
   end subroutine move_rigidly
+
+  !> Which contact points the supports hold entirely, (n): whatever the loads are, these move with the supports alone.
+  !> A body that has been condensed before.
+  pure function held_points(self) result(held)
+    use fuge_contact_normals, only: is_held
+    class(fuge_condensed), intent(in) :: self
+    logical :: held(size(self%displacement))
+    logical :: fixed(size(self%held%constrained))
+    integer :: i
+
+    fixed = .false.
+    if (allocated(self%held%body%fixed)) fixed(self%held%body%fixed) = .true.
+    do i = 1, size(held)
+      held(i) = is_held(self%held%body%dof(:, i), self%held%body%normal(:, i), fixed)
+    end do
+  end function held_points
 
   !> Free the stiffness and its factor, by far the largest part of the memory; the public
   !> components stay. It happens automatically when the variable goes out of scope, but not with

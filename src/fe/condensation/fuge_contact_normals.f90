@@ -7,7 +7,8 @@ module fuge_contact_normals
   implicit none
   private
 
-  public :: add_contact_forces, add_point_force, check_free_points, displacement_scale, pin_scale, point_displacement
+  public :: add_contact_forces, add_point_force, check_free_points, displacement_scale, is_held, pin_scale, &
+    point_displacement
 
 contains
 
@@ -88,21 +89,30 @@ contains
     type(fuge_body), intent(in) :: body
     logical, intent(in) :: constrained(:)
     type(fuge_info), intent(inout) :: info
-    integer :: i, k
-    logical :: moves
+    integer :: i
 
     do i = 1, size(body%dof, 2)
-      moves = .false.
-      do k = 1, size(body%dof, 1)
-        if (body%dof(k, i) < 1) cycle
-        moves = moves .or. (abs(body%normal(k, i)) > 0.0_dp .and. .not. constrained(body%dof(k, i)))
-      end do
-      if (moves) cycle
+      if (.not. is_held(body%dof(:, i), body%normal(:, i), constrained)) cycle
       call report(info, FUGE_ERR_DOF, 'contact point '//index_text(i)//' cannot move in the direction of its force, ' &
                   //'because of the supports: leave it out, or free degree of freedom ' &
                   //index_text(maxval(body%dof(:, i))))
       return
     end do
   end subroutine check_free_points
+
+  !> Does a contact point move with no degree of freedom but those that are `constrained` (degrees)?
+  pure function is_held(dof, normal, constrained) result(held)
+    integer, intent(in) :: dof(:)
+    real(dp), intent(in) :: normal(:)
+    logical, intent(in) :: constrained(:)
+    logical :: held
+    integer :: k
+
+    held = .true.
+    do k = 1, size(dof)
+      if (dof(k) < 1) cycle
+      held = held .and. (constrained(dof(k)) .or. .not. abs(normal(k)) > 0.0_dp)
+    end do
+  end function is_held
 
 end module fuge_contact_normals

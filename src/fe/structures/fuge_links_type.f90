@@ -26,6 +26,8 @@ module fuge_links_type
 
   !> Degrees of freedom of a node that a direction may have, most.
   integer, parameter :: MOST_AXES = 6
+  !> The first of them are translations, the others rotations.
+  integer, parameter :: TRANSLATIONS = 3
 
   !> The law of a link, as that of a contact point in `fuge_problem`. As it is declared it is hard: no gap, no
   !> compliance, no second stop, no limits.
@@ -114,7 +116,9 @@ contains
   !> Add a support of a node: it pushes the node along `direction`, and its gap opens when the node moves along it.
   !>
   !> `dof` degrees of freedom of the node, at most 6, 0 for a component that does not move; `direction`, a component for
-  !> each, of any length but zero; `law`, hard by default; `name` for messages. Errors, nothing added: FUGE_ERR_SIZE,
+  !> each, not all of them zero: the first three are translations, which are scaled to length 1 together, the others
+  !> rotations, whose components are lever arms, length, by which they open the gap. So that of a plane frame is a
+  !> fourth component or a later one. `law`, hard by default; `name` for messages. Errors, nothing added: FUGE_ERR_SIZE,
   !> FUGE_ERR_DOF where no degree of freedom moves along the direction, FUGE_ERR_NOT_FINITE, FUGE_ERR_GAP, FUGE_ERR_LAW,
   !> FUGE_ERR_MEMORY.
   subroutine add_support(self, dof, direction, info, law, name)
@@ -213,7 +217,8 @@ contains
   end subroutine attach
 
   !> Pose the contact problem of the links of a condensed body: gaps, laws and the rigid modes that its supports leave;
-  !> the ground stands still. `problem` is replaced. Errors: those of `pose` of fuge_condensed.
+  !> the ground stands still. `problem` is replaced. A link whose ends are held by supports of the body that stand still
+  !> can never act: it is named in the message, with the status FUGE_DONE. Errors: those of `pose` of fuge_condensed.
   subroutine pose(self, condensed, problem, info)
     class(fuge_links), intent(in) :: self
     type(fuge_condensed), intent(in) :: condensed
@@ -223,11 +228,14 @@ contains
 
     call start_problem(self, posed, info)
     if (.not. info%failed()) call condensed%pose(gaps(self), posed, info)
-    if (.not. info%failed()) problem = posed
+    if (info%failed()) return
+    problem = posed
+    call name_idle(self, condensed%held_points() .and. .not. abs(condensed%displacement) > 0.0_dp, info)
   end subroutine pose
 
   !> As `pose`, of many load cases: external `loads`, (degrees, cases), and perhaps displacements of the supports,
-  !> (fixed, cases). Errors: those of `pose_cases` of fuge_condensed.
+  !> (fixed, cases). The message names links that can act in none of them. Errors: those of `pose_cases` of
+  !> fuge_condensed.
   subroutine pose_cases(self, condensed, loads, problem, cases, info, displacement)
     class(fuge_links), intent(in) :: self
     type(fuge_condensed), intent(in) :: condensed
@@ -237,6 +245,8 @@ contains
     type(fuge_info), intent(out) :: info
     real(dp), intent(in), optional :: displacement(:, :)
     type(fuge_problem) :: posed
+    logical :: idle(self%used)
+    integer :: k
 
     call start_problem(self, posed, info)
     if (info%failed()) return
@@ -245,8 +255,33 @@ contains
     else
       call condensed%pose_cases(gaps(self), loads, posed, cases, info)
     end if
-    if (.not. info%failed()) problem = posed
+    if (info%failed()) return
+    problem = posed
+    idle = condensed%held_points()
+    do k = 1, self%used
+      idle(k) = idle(k) .and. .not. any(abs(cases%gap(k, :) - self%rows(k)%law%gap) > 0.0_dp)
+    end do
+    call name_idle(self, idle, info)
   end subroutine pose_cases
+
+  !> Name the links that are `idle` (n), if there are any, in the message of `info`, whose status stays as it is.
+  pure subroutine name_idle(self, idle, info)
+    type(fuge_links), intent(in) :: self
+    logical, intent(in) :: idle(:)
+    type(fuge_info), intent(inout) :: info
+    character(len=NAME_LENGTH) :: name
+
+    if (.not. any(idle)) return
+    name = link_name(self, findloc(idle, .true., dim=1))
+    if (count(idle) == 1) then
+      call report(info, info%status, trim(name)//' can never act: supports of the body hold its ends, whatever the ' &
+                  //'loads are. Free these degrees of freedom, or leave it out')
+    else
+      call report(info, info%status, trim(name)//' and '//text(count(idle) - 1)//' other link(s) can never act: ' &
+                  //'supports of the body hold their ends, whatever the loads are. Free these degrees of freedom, or ' &
+                  //'leave them out')
+    end if
+  end subroutine name_idle
 
   !> Largest degree of freedom of any link; 0 without links.
   pure function last_degree(self)
@@ -330,8 +365,13 @@ contains
       call check_law(row%law, trim(own), info)
     end if
     if (info%failed()) return
-    unit = direction/maxval(abs(direction))
-    unit = unit/norm2(unit)
+    unit = direction
+    associate (translation => unit(:min(TRANSLATIONS, size(unit))))
+      if (any(abs(translation) > 0.0_dp)) then
+        translation = translation/maxval(abs(translation))
+        translation = translation/norm2(translation)
+      end if
+    end associate
     call place(dof_a, unit, row%dof(:MOST_AXES), row%normal(:MOST_AXES))
     call place(dof_b, -unit, row%dof(MOST_AXES + 1:), row%normal(MOST_AXES + 1:))
     if (any(dof_a < 0) .or. any(dof_b < 0)) then

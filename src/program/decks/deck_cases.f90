@@ -165,14 +165,17 @@ contains
     type(fuge_load_cases) :: cases
     type(fuge_problem) :: problem
     type(fuge_solver) :: solver
+    type(fuge_info) :: posing
     integer :: j
 
     call model%links%pose_cases(condensed, model%loads(:, group%member), problem, cases, info, group%displacement)
+    posing = info
     if (.not. info%failed()) call operator%set(condensed%alpha, info)
     if (.not. info%failed()) call fuge_solve_cases(solver, operator, problem, cases, solutions, info, &
                                                         options)
     if (info%failed()) return
     do j = 1, size(group%member)
+      if (solutions%report(j)%message == '') solutions%report(j)%message = posing%message
       if (solutions%report(j)%status /= FUGE_ERR_NO_EQUILIBRIUM .or. .not. allocated(cases%load)) cycle
       problem%gap = cases%gap(:, j)
       problem%resultant = cases%load(:, j)

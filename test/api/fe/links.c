@@ -113,6 +113,7 @@ static void test_displaced_supports(void) {
   const double loads[6] = {0.0}, supports[4] = {0.25, 0.0, -0.5, 0.125}, along = 1.0;
   const int fixed[2] = {1, 2}, spring = 0, first = 1, second = 2;
   double b[4], force[4], u[6];
+  char message[256];
   struct structure s = {NULL, NULL, NULL, NULL};
   CHECK_DONE(fuge_body_dense(3, bars, 3, &s.body, NULL, 0));
   CHECK_DONE(fuge_body_fix(s.body, 2, fixed, NULL));
@@ -121,6 +122,7 @@ static void test_displaced_supports(void) {
   CHECK_DONE(fuge_links_add_gap(s.links, 1, &second, &first, &along, NULL, "held"));
   condense(&s);
   CHECK_DONE(fuge_links_pose(s.links, s.body, s.solver));
+  CHECK_SAYS(fuge_links_message(s.links, message, sizeof message), FUGE_DONE, message, "held can never act");
   CHECK_DONE(fuge_body_get_cases(s.body, 2, loads, supports, b, NULL, NULL));
   CHECK_VALUES(b, 1e-15, -0.25, 0.25, 0.5, -0.625);
   b[3] += 1.0;
