@@ -25,7 +25,7 @@ module fuge_input_deck
 
   !> An input file that is read line by line.
   type, public :: input_deck
-    type(text_file) :: file(MOST_FILES)
+    type(text_file), allocatable :: file(:)
     integer :: depth = 0
     integer, private :: included = 0
     !> Numbers of the open files among the paths.
@@ -37,7 +37,7 @@ module fuge_input_deck
     !> The keyword of the last keyword line, in upper case, without *.
     character(len=NAME_LENGTH) :: keyword = ''
     integer :: parameters = 0
-    character(len=NAME_LENGTH) :: name(MOST_PARAMETERS) = ''
+    character(len=NAME_LENGTH), allocatable :: name(:)
     character(len=VALUE_LENGTH), allocatable :: value(:)
     !> The last line ended with a comma.
     logical, private :: continued = .false.
@@ -73,7 +73,7 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
-    allocate (self%value(MOST_PARAMETERS), stat=stat)
+    allocate (self%file(MOST_FILES), self%name(MOST_PARAMETERS), self%value(MOST_PARAMETERS), stat=stat)
     call require_memory(stat, 'the parameters of a deck', info)
     if (stat /= 0) return
     self%folder = path(:scan(path, '/\', back=.true.))

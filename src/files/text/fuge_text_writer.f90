@@ -3,13 +3,13 @@
 module fuge_text_writer
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_FILE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_FILE
   use fuge_text_reader, only: quoted_path, REASON_LENGTH
   implicit none
   private
 
   !> Bytes that are written at a time.
-  integer, parameter :: BUFFER_LENGTH = 8192
+  integer, parameter :: BUFFER_LENGTH = 16384
   character, parameter :: LINE_FEED = achar(10)
 
   !> A new file. After the first error nothing more is written, and `finish` reports the error.
@@ -19,7 +19,7 @@ module fuge_text_writer
     integer(c_int) :: failure = 0_c_int
     integer :: used = 0
     character(len=:), allocatable :: path
-    character(len=BUFFER_LENGTH) :: buffer
+    character(len=:), allocatable :: buffer
   contains
     procedure :: create
     procedure :: put
@@ -67,17 +67,21 @@ module fuge_text_writer
 
 contains
 
-  !> Create a file at `path`, or replace it. Error: FUGE_ERR_FILE.
+  !> Create a file at `path`, or replace it. Errors: FUGE_ERR_FILE, FUGE_ERR_MEMORY.
   subroutine create(self, path, info)
     class(text_output), intent(out) :: self
     character(len=*), intent(in) :: path
     type(fuge_info), intent(inout) :: info
+    integer :: stat
 
     self%path = trim(path)
     if (len(self%path) == 0) then
       call report(info, FUGE_ERR_FILE, 'the path is blank: pass the path of a file')
       return
     end if
+    allocate (character(len=BUFFER_LENGTH) :: self%buffer, stat=stat)
+    call require_memory(stat, 'the buffer of a file', info)
+    if (stat /= 0) return
     self%file = output_create(self%path//c_null_char, self%failure)
     if (self%failure /= 0_c_int) call report(info, FUGE_ERR_FILE, quoted_path(path)//' cannot be opened: ' &
                                              //trim(reason(self%failure)))
