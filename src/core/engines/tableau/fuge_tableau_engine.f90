@@ -72,12 +72,22 @@ contains
                           deficient, status)
     end associate
     call require_memory(status, 'a factor of alpha', info)
-    if (status == FUGE_DONE .and. deficient > 0) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces '//kind_of_forces(canonical) &
-                  //': point '//index_text(deficient) &
-                  //' and others carry some that store no energy; look for a repeated point ' &
-                  //'or a wrong sign at point '//index_text(deficient))
+    if (status /= FUGE_DONE .or. deficient == 0) return
+    if (canonical%has_limits()) then
+      call report_deficient('FUGE_ACTIVE_SET takes them up to their limits')
+    else
+      call report_deficient('look for a repeated point or a wrong sign at point '//index_text(deficient))
     end if
+
+  contains
+
+    subroutine report_deficient(remedy)
+      character(len=*), intent(in) :: remedy
+
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is not positive definite on forces '//kind_of_forces(canonical) &
+                  //': point '//index_text(deficient)//' and others carry some that store no energy; '//remedy)
+    end subroutine report_deficient
+
   end subroutine check_solvable
 
   pure function kind_of_forces(canonical) result(words)

@@ -214,7 +214,7 @@ contains
     sums = [sum(scene%gap), sum(abs(scene%gap))]
     call scene%rows%add(sums)
     if (.not. settings%coarse_grid .and. sums(1) < -ROUNDINGS*epsilon(1.0_dp)*sums(2)) then
-      call report_unbounded(1, info)
+      call report_unbounded(1, scene%has_limits(), info)
       return
     end if
     iterate%prescribed = .false.
@@ -256,7 +256,7 @@ contains
     call run_projected_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, &
                                  iterate, info)
     if (iterate%unbounded .and. .not. (settings%coarse_grid .or. info%failed())) then
-      call report_unbounded(maxloc(abs(iterate%direction), dim=1), info)
+      call report_unbounded(maxloc(abs(iterate%direction), dim=1), scene%has_limits(), info)
     end if
     if (info%failed()) return
     info%iterations = info%iterations + 1
@@ -264,11 +264,19 @@ contains
     call tell_progress(scene, iterate, monitor, info)
   end subroutine solve_on_contact_set
 
-  !> Report that forces without energy, the largest of them at `point`, grow without bound (FUGE_ERR_NOT_DEFINITE).
-  pure subroutine report_unbounded(point, info)
+  !> Report that forces without energy, the largest of them at `point`, grow without bound, or, where forces are
+  !> `limited`, to limits at which this engine does not look for a solution (FUGE_ERR_NOT_DEFINITE).
+  pure subroutine report_unbounded(point, limited, info)
     integer, intent(in) :: point
+    logical, intent(in) :: limited
     type(fuge_info), intent(inout) :: info
 
+    if (limited) then
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the operator is singular: forces that store no energy, the largest at ' &
+                  //'point '//index_text(point)//', cannot move the points to their stops; with a matrix ' &
+                  //'FUGE_ACTIVE_SET takes them up to their limits')
+      return
+    end if
     call report(info, FUGE_ERR_NOT_DEFINITE, 'the operator is singular, and there is no solution: forces that store ' &
                 //'no energy, the largest at point '//index_text(point)//', cannot move the points to their stops; ' &
                 //'free the rigid motion that can, or change the gaps')
