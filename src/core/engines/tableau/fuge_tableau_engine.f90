@@ -59,7 +59,8 @@ contains
 
   !> Refuse what the tableau does not solve: numbers that overflow (FUGE_ERR_OVERFLOW), an alpha without a unique
   !> solution (FUGE_ERR_NOT_DEFINITE). A point with limits may have any force between them, so all points that have a
-  !> force at all count; those whose limits are zero are excluded.
+  !> force at all count; those whose limits are zero are excluded. Where every force is limited there is a solution
+  !> even so.
   subroutine check_solvable(canonical, info)
     type(canonical_problem), intent(in) :: canonical
     type(fuge_info), intent(inout) :: info
@@ -67,7 +68,7 @@ contains
 
     associate (alpha => canonical%alpha(:size(canonical%gap), :))
       call check_largest(canonical%survey%largest(), canonical%largest_load(), info)
-      if (info%failed()) return
+      if (info%failed() .or. all_forces_are_bounded(canonical)) return
       call check_definite(alpha, merge(0.0_dp, canonical%datum, canonical%plain), canonical%modes, canonical%excluded, &
                           deficient, status)
     end associate
@@ -89,6 +90,16 @@ contains
     end subroutine report_deficient
 
   end subroutine check_solvable
+
+  !> Has every force limits at the stops that there are?
+  pure function all_forces_are_bounded(canonical) result(bounded)
+    type(canonical_problem), intent(in) :: canonical
+    logical :: bounded
+
+    bounded = canonical%has_limits()
+    if (bounded) bounded = all(canonical%excluded .or. (canonical%limit < huge(1.0_dp) .and. &
+                               (canonical%upper >= huge(1.0_dp) .or. canonical%limit_upper < huge(1.0_dp))))
+  end function all_forces_are_bounded
 
   pure function kind_of_forces(canonical) result(words)
     type(canonical_problem), intent(in) :: canonical

@@ -1,8 +1,8 @@
 !> Search directions whose forces store no energy, because the operator is singular.
 !>
 !> Where the forces of a contact set can change along such a direction, the residual cannot: if it works on them,
-!> nothing on this set can stop them. Either some force changes its sign, and its point leaves the set, or none does,
-!> and the contact problem has no solution (Farkas' lemma, for a convex quadratic program).
+!> nothing on this set can stop them. Either some force leaves its range, and its point the set, or none does, and the
+!> contact problem has no solution (Farkas' lemma, for a convex quadratic program).
 module fuge_null_direction
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, iterate_pass
   use fuge_contact_scene, only: contact_scene
@@ -19,7 +19,7 @@ module fuge_null_direction
   real(dp), parameter :: ROUNDINGS = 64.0_dp
   !> Forces of a direction below this fraction of its largest one come from other directions.
   real(dp), parameter :: NO_FORCE = 1.0e-4_dp
-  !> A step along the direction goes beyond the first zero of a force by this fraction of the largest force.
+  !> A step along the direction goes beyond the first end of a range by this fraction of the largest force.
   real(dp), parameter :: BEYOND = 1.0e-3_dp
 
 contains
@@ -136,39 +136,34 @@ contains
     end associate
   end subroutine sum_magnitudes
 
-  !> How much point `k` loses of its force, of the sign that its stop gives, by a step of 1 against the search
-  !> direction; nothing where it is tied.
-  pure function loss_at(scene, iterate, k) result(loss)
+  !> How far the force of point `k` is from the end of its range, negative beyond it, on the way along `change`; huge if
+  !> it has no end there.
+  pure function distance_to_end(scene, iterate, k, change) result(distance)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     integer, intent(in) :: k
-    real(dp) :: loss
+    real(dp), intent(in) :: change
+    real(dp) :: distance
+    real(dp) :: least, most
+    logical :: at_upper
 
-    loss = 0.0_dp
-    if (.not. iterate%contact(k) .or. scene%is_tied(k)) return
-    loss = sign_at(iterate, k)*iterate%direction(k)
-  end function loss_at
+    at_upper = .false.
+    if (allocated(iterate%at_upper)) at_upper = iterate%at_upper(k)
+    call scene%find_range(k, at_upper, least, most)
+    distance = huge(distance)
+    if (change > 0.0_dp .and. most < huge(most)) distance = most - iterate%force(k)
+    if (change < 0.0_dp .and. least > -huge(least)) distance = iterate%force(k) - least
+  end function distance_to_end
 
-  !> The sign of a force at the stop where point `k` is.
-  pure function sign_at(iterate, k) result(sign_of_force)
-    type(contact_iterate), intent(in) :: iterate
-    integer, intent(in) :: k
-    real(dp) :: sign_of_force
-
-    sign_of_force = 1.0_dp
-    if (.not. allocated(iterate%at_upper)) return
-    if (iterate%at_upper(k)) sign_of_force = -1.0_dp
-  end function sign_at
-
-  !> Go from the forces at the start against the search direction, which stores no energy, until a force has changed its
-  !> sign, unless one has already; iterate%unbounded if none ever does. Not where the direction does no work beyond
+  !> Go from the forces at the start against the search direction, which stores no energy, until a force has left its
+  !> range, unless one has already; iterate%unbounded if none ever does. Not where the direction does no work beyond
   !> rounding: `energy` is its work for a step of 1, and the mean residual in it is at most `tolerance` times the
   !> lengths of the scene.
   subroutine leave_null_direction(scene, tolerance, energy, iterate)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: tolerance, energy
     type(contact_iterate), intent(inout) :: iterate
-    real(dp) :: force, least, loss, step_length
+    real(dp) :: change, distance, least, step_length
     logical :: stays
     integer :: k
 
@@ -180,12 +175,13 @@ contains
     least = NO_FORCE*max_abs_over(iterate%segments, iterate%direction)
     step_length = huge(step_length)
     do k = 1, size(iterate%contact)
-      loss = loss_at(scene, iterate, k)
-      if (.not. loss > least) cycle
+      change = merge(-iterate%direction(k), 0.0_dp, iterate%contact(k))
+      if (.not. abs(change) > least) cycle
+      distance = distance_to_end(scene, iterate, k, change)
+      if (.not. distance < huge(distance)) cycle
       iterate%unbounded = .false.
-      force = sign_at(iterate, k)*iterate%force(k)
-      stays = stays .or. force < -iterate%tension_noise
-      step_length = min(step_length, max(force, 0.0_dp)/loss)
+      stays = stays .or. distance < -iterate%tension_noise
+      step_length = min(step_length, max(distance, 0.0_dp)/abs(change))
     end do
     associate (space => scene%rows%point_space)
       iterate%unbounded = space%everywhere(iterate%unbounded)

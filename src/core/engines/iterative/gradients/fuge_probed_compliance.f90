@@ -7,7 +7,7 @@
 module fuge_probed_compliance
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, deformed_gap, &
-    remove_rigid_part
+    overlap_at, remove_rigid_part
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_contact_segments, only: add_scaled_over, contact_segments, dot_over, max_abs_over
@@ -76,12 +76,21 @@ contains
     logical, intent(out) :: touch(:)
     real(dp) :: open, gap
     integer :: k
+    logical :: limits
 
+    limits = scene%has_limits()
     touch = iterate%contact
     open = WITHIN*(max(iterate%residual_norm, iterate%penetration) + iterate%rounding &
                    + epsilon(open)*iterate%largest_magnitude) + rounding
     do k = 1, size(touch)
       if (touch(k) .or. scene%gap(k) >= OUT_OF_REACH) cycle
+      if (limits) then
+        ! The force of a point that has given way is known.
+        if (iterate%limited(k) /= 0) then
+          touch(k) = overlap_at(scene, iterate, k) >= -open
+          cycle
+        end if
+      end if
       gap = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
       touch(k) = gap <= open
       if (allocated(scene%play)) touch(k) = touch(k) .or. gap >= scene%play(k) - open

@@ -110,7 +110,7 @@ contains
     has_limits = allocated(self%limit)
   end function has_limits
 
-  !> The least and the largest force of point `k` at its lower stop, or `at_upper`.
+  !> The least and the largest force of point `k` at its lower stop, or `at_upper`; huge without a limit.
   pure subroutine find_range(self, k, at_upper, least, most)
     class(contact_scene), intent(in) :: self
     integer, intent(in) :: k
@@ -119,8 +119,11 @@ contains
 
     least = 0.0_dp
     most = 0.0_dp
-    if (at_upper .or. self%is_tied(k)) least = -self%limit_upper(k)
-    if (.not. at_upper) most = self%limit(k)
+    if (at_upper .or. self%is_tied(k)) least = -huge(least)
+    if (.not. at_upper .or. self%is_tied(k)) most = huge(most)
+    if (.not. self%has_limits()) return
+    least = max(least, -self%limit_upper(k))
+    most = min(most, self%limit(k))
   end subroutine find_range
 
   !> The force of point `k` at its limit of the lower stop, `sense` = 1, or of the upper one, -1.
