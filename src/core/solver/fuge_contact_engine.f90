@@ -14,8 +14,6 @@ module fuge_contact_engine
   type, abstract, public :: contact_engine
   contains
     procedure(solve_problem), deferred :: solve
-    procedure(judge_level), deferred :: judge
-    procedure(judge_level), deferred :: explain
     procedure :: keep => keep_nothing
     procedure(is_doubtful), deferred :: was_misled
     procedure(forget), deferred :: distrust_start
@@ -48,17 +46,6 @@ module fuge_contact_engine
       type(fuge_solution), intent(inout) :: solution
       type(fuge_info), intent(inout) :: info
     end subroutine solve_problem
-
-    !> `judge`: refuse the solution just found if the rounding of the data may hide the level of its forces. `explain`:
-    !> where the engine has found that there is none, name that cause in `info`.
-    subroutine judge_level(self, operator, problem, tolerance, info)
-      import :: contact_engine, dp, fuge_operator, fuge_problem, fuge_info
-      class(contact_engine), intent(in) :: self
-      class(fuge_operator), intent(in) :: operator
-      type(fuge_problem), intent(in) :: problem
-      real(dp), intent(in) :: tolerance
-      type(fuge_info), intent(inout) :: info
-    end subroutine judge_level
 
     !> Has what was kept of an earlier solve perhaps misled this one, which ended with `status`?
     pure function is_doubtful(self, status)

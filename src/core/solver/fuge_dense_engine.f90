@@ -6,7 +6,6 @@ module fuge_dense_engine
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_force_error, only: estimate_force_error
-  use fuge_force_level, only: explain_by_force_level, judge_force_level
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
@@ -51,8 +50,6 @@ module fuge_dense_engine
     logical :: with_springs = .false.
   contains
     procedure :: solve
-    procedure :: judge
-    procedure :: explain
     procedure :: was_misled
     procedure :: distrust_start
     procedure :: forget_start
@@ -295,29 +292,6 @@ contains
       call solve_by_active_set(self%canonical, options, monitor, self%factor, solution, info, self%set)
     end if
   end subroutine run_active_set
-
-  !> As for `contact_engine`.
-  subroutine judge(self, operator, problem, tolerance, info)
-    class(dense_engine), intent(in) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: tolerance
-    type(fuge_info), intent(inout) :: info
-
-    if (problem%has_law()) return
-    call judge_force_level(operator, self%canonical, problem%gap, self%state, tolerance, info)
-  end subroutine judge
-
-  !> As for `contact_engine`.
-  subroutine explain(self, operator, problem, tolerance, info)
-    class(dense_engine), intent(in) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: tolerance
-    type(fuge_info), intent(inout) :: info
-
-    call explain_by_force_level(operator, self%canonical, problem%gap, tolerance, info)
-  end subroutine explain
 
   !> The matrix may have changed since it was factored, although the operator was not set again.
   pure function was_misled(self, status)

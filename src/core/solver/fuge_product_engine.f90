@@ -3,7 +3,6 @@ module fuge_product_engine
   use fuge_canonical_problem, only: canonical_problem, make_canonical
   use fuge_contact_engine, only: contact_engine
   use fuge_contact_solution, only: allocate_solution, contact_solution
-  use fuge_force_level, only: explain_by_force_level, judge_force_level
   use fuge_history_type, only: fuge_history
   use fuge_iterated_set, only: iterated_set
   use fuge_iterative_engine, only: is_general, solve_by_iteration
@@ -57,8 +56,6 @@ module fuge_product_engine
   contains
     procedure :: solve
     procedure :: keep
-    procedure :: judge
-    procedure :: explain
     procedure :: was_misled
     procedure :: distrust_start => forget_start
     procedure :: forget_start
@@ -393,31 +390,6 @@ contains
     call require_memory(stat, 'the states of', size(set%state), 'points', info)
     if (stat == 0) solution%state = set%state
   end subroutine give_states
-
-  !> As for `contact_engine`.
-  subroutine judge(self, operator, problem, tolerance, info)
-    class(product_engine), intent(in) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: tolerance
-    type(fuge_info), intent(inout) :: info
-
-    ! Points that give way make the level of the forces unique.
-    if (self%is_general .and. .not. problem%has_law()) then
-      call judge_force_level(operator, self%canonical, problem%gap, int(self%last%state), tolerance, info)
-    end if
-  end subroutine judge
-
-  !> As for `contact_engine`.
-  subroutine explain(self, operator, problem, tolerance, info)
-    class(product_engine), intent(in) :: self
-    class(fuge_operator), intent(in) :: operator
-    type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: tolerance
-    type(fuge_info), intent(inout) :: info
-
-    call explain_by_force_level(operator, self%canonical, problem%gap, tolerance, info)
-  end subroutine explain
 
   !> The start may have been so large that it left its rounding behind.
   pure function was_misled(self, status)

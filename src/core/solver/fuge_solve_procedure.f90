@@ -4,7 +4,7 @@ submodule(fuge_solver_type) fuge_solve_procedure
   use fuge_certified_solution, only: certify
   use fuge_dense_engine, only: dense_engine
   use fuge_engine_choice, only: takes_products
-  use fuge_iterative_engine, only: is_general
+  use fuge_force_level, only: explain_by_force_level, judge_force_level
   use fuge_monitor_type, only: monitor_relay
   use fuge_options_type, only: check_options
   use fuge_problem_bounds, only: begins_with_one
@@ -154,10 +154,10 @@ contains
 
     call engine%solve(operator, problem, options, monitor, history, solution, info)
     if (.not. info%failed()) then
-      call engine%judge(operator, problem, options%tolerance, info)
+      call judge_force_level(operator, problem, solution, options%tolerance, info)
       if (info%failed()) call engine%forget_start()
-    else if (is_general(problem) .and. .not. problem%has_law()) then
-      call engine%explain(operator, problem, options%tolerance, info)
+    else if (.not. problem%has_law()) then
+      call explain_by_force_level(operator, problem, options%tolerance, info)
     end if
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
     if (.not. info%failed()) call engine%keep(operator, problem, solution)

@@ -163,7 +163,7 @@ contains
 
     if (.not. forces_are_unbounded(canonical, solution)) return
     if (equal_forces_hold_nothing(canonical, solution)) then
-      call report_closed_gap(-sum(canonical%gap)/real(size(canonical%gap), dp), info)
+      call report_closed_gap(-sum(canonical%gap)/real(size(canonical%gap), dp), [0, 0], info)
       return
     end if
     call report(info, FUGE_ERR_NOT_DEFINITE, 'alpha is singular, and there is no solution: forces that store no ' &

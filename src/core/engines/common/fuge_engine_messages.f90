@@ -8,7 +8,7 @@ module fuge_engine_messages
   implicit none
   private
 
-  public :: explain_status, report_closed_gap, report_uncorrected
+  public :: explain_status, idle_forces, report_closed_gap, report_uncorrected
 
   !> Forces that store no energy can be added to those of the contact.
   character(len=*), parameter, public :: SINGULAR_ON_CONTACT = 'alpha is singular on the contact: gaps and approach ' &
@@ -17,8 +17,19 @@ module fuge_engine_messages
     //'alpha is singular on it: neither these motions, nor the gaps that they move, nor the forces are unique'
   character(len=*), parameter, public :: SINGULAR_WHERE_TOUCHING = 'alpha is singular on the points that touch: gaps ' &
     //'and approach are unique, the forces are not; those given are one of many possible'
+  !> Equal forces displace a periodic surface nowhere in the mean, nor points whose coefficients have zero sums.
+  character(len=*), parameter :: IDLE = 'equal forces displace nothing', IDLE_ON_GRID = IDLE//' (a periodic surface)'
 
 contains
+
+  !> Words for equal forces that displace nothing: on a grid of `cells`, none for other points, that is a periodic
+  !> surface.
+  pure function idle_forces(cells) result(words)
+    integer, intent(in) :: cells(2)
+    character(len=merge(len(IDLE_ON_GRID), len(IDLE), all(cells > 0))) :: words
+
+    words = IDLE_ON_GRID
+  end function idle_forces
 
   !> Report the `status` of an engine in words. `limit`: the iterations allowed; `contacts`: points in the contact set.
   pure subroutine explain_status(status, limit, contacts, info)
@@ -50,14 +61,14 @@ contains
   end subroutine report_uncorrected
 
   !> Report that no forces hold the prescribed motions: the mean gap is negative, -`closed`, and equal forces, which
-  !> alone could raise it, displace nothing.
-  pure subroutine report_closed_gap(closed, info)
+  !> alone could raise it, displace nothing. `cells` as for `idle_forces`.
+  pure subroutine report_closed_gap(closed, cells, info)
     real(dp), intent(in) :: closed
+    integer, intent(in) :: cells(2)
     type(fuge_info), intent(inout) :: info
 
-    call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
-                //'hold the prescribed motions, at which the mean gap is closed by '//text(closed) &
-                //': prescribe less, or resultants')
+    call report(info, FUGE_ERR_NO_EQUILIBRIUM, idle_forces(cells)//', so no forces hold the prescribed ' &
+                //'motions, at which the mean gap is closed by '//text(closed)//': prescribe less, or resultants')
   end subroutine report_closed_gap
 
 end module fuge_engine_messages

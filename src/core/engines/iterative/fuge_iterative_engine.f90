@@ -12,7 +12,7 @@ module fuge_iterative_engine
   use fuge_contact_set_search, only: find_contact_set, note_states
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_contact_window, only: solve_in_window, survey_level
-  use fuge_engine_messages, only: report_closed_gap, SINGULAR_AND_UNRESISTED, SINGULAR_ON_CONTACT
+  use fuge_engine_messages, only: idle_forces, report_closed_gap, SINGULAR_AND_UNRESISTED, SINGULAR_ON_CONTACT
   use fuge_feasible_forces, only: make_feasible
   use fuge_general_scene, only: assemble_general, set_general_scene
   use fuge_iterated_set, only: iterated_set
@@ -41,7 +41,8 @@ module fuge_iterative_engine
 
   public :: is_general, solve_by_iteration
 
-  !> A mean gap up to this many units in the last place of the largest gap is rounding.
+  !> A mean gap up to this many units in the last place of the largest gap, times the root of the number of points, is
+  !> rounding.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
 
 contains
@@ -293,9 +294,9 @@ contains
     if (solved .and. .not. info%failed()) call confirm_window(operator, settings, scene, iterate, found, info)
   end subroutine start_on_coarser_grids
 
-  !> Refuse prescribed motions at which the mean gap is closed, or open by no more than the rounding of the
-  !> gaps, where equal forces displace nothing, as on a periodic surface: no forces resist it, or
-  !> any equal ones do. Errors: FUGE_ERR_NO_EQUILIBRIUM, those of equal_forces_displace_nothing.
+  !> Refuse prescribed motions at which the mean gap is closed by more than the rounding of the gaps, where equal forces
+  !> displace nothing, as on a periodic surface: no forces resist it. Errors: FUGE_ERR_NO_EQUILIBRIUM, those of
+  !> equal_forces_displace_nothing.
   subroutine check_approach(operator, problem, scene, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -310,14 +311,14 @@ contains
     largest = scene%rows%largest(max(maxval(abs(scene%gap)), maxval(abs(problem%gap))))
     if (.not. allocated(problem%modes)) largest = max(abs(problem%motion(1)), &
                                                       scene%rows%largest(maxval(abs(scene%gap))))
-    if (mean > ROUNDINGS*epsilon(mean)*largest) return
+    if (mean >= -ROUNDINGS*epsilon(mean)*largest*sqrt(real(scene%points(), dp))) return
     if (.not. equal_forces_displace_nothing(operator, info)) return
     if (info%failed()) return
     if (allocated(problem%modes)) then
-      call report_closed_gap(-mean, info)
+      call report_closed_gap(-mean, operator%grid(), info)
     else
-      call report(info, FUGE_ERR_NO_EQUILIBRIUM, 'equal forces displace nothing (a periodic surface), so no forces ' &
-                  //'hold the approach '//text(problem%motion(1))//', at which the mean gap is closed: prescribe ' &
+      call report(info, FUGE_ERR_NO_EQUILIBRIUM, idle_forces(operator%grid())//', so no forces hold the approach ' &
+                  //text(problem%motion(1))//', at which the mean gap is closed: prescribe ' &
                   //'less than '//text(problem%motion(1) + mean)//', or a load')
     end if
   end subroutine check_approach

@@ -198,9 +198,9 @@ contains
   !> Leave a complete contact whose forces are undetermined: its equations fix the differences of
   !> the forces only, and no forces close a mean gap that the approach leaves open.
   !>
-  !> The points whose forces are above the mean stay: those in contact under the least load. If the
-  !> grid is a coarser one whose mean gap is closed, the contact stays complete, under the least load
-  !> that closes it. On the finest grid no forces raise the mean gap (FUGE_ERR_NOT_DEFINITE).
+  !> The points whose forces are above the mean stay: those in contact under the least load. Where the mean gap is
+  !> closed, the contact stays complete, under the least load that closes it. On the finest grid no forces raise a
+  !> negative mean gap (FUGE_ERR_NOT_DEFINITE).
   subroutine solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
@@ -221,7 +221,7 @@ contains
     call solve_on_contact_set(operator, settings, preconditioner, scene, .false., monitor, iterate, info)
     iterate%prescribed = .true.
     if (info%failed()) return
-    if (settings%coarse_grid .and. .not. sums(1) > 0.0_dp) then
+    if (.not. sums(1) > ROUNDINGS*epsilon(1.0_dp)*sums(2)) then
       iterate%force = iterate%force - scene%rows%least(minval(iterate%force))
     else
       iterate%force = iterate%force - scene%rows%total(sum(iterate%force))/real(scene%points(), dp)
