@@ -18,6 +18,8 @@ module fuge_working_set
 
   !> Violations below this fraction of the largest force, or of the lengths at the point, are rounding.
   real(dp), parameter, public :: SIGN_TOLERANCE = 1.0e-14_dp
+  !> A force displaces its point by much if that is above this fraction of all terms of the gap.
+  real(dp), parameter :: SOFT = 1.0e-10_dp
 
   type, public :: working_set
     !> Gaps less `gap_datum`, (n), length.
@@ -303,6 +305,25 @@ contains
     where (solution%state == FUGE_AT_UPPER_STOP) solution%gap = canonical%upper
   end subroutine find_gaps
 
+  !> A force of the wrong sign, by `beyond`, that is small beside others may still displace a soft point `j` by much: by
+  !> more than what all terms of its gap leave to rounding. Then it is a violation.
+  pure function own_violation(self, canonical, solution, j, beyond) result(violation)
+    class(working_set), intent(in) :: self
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_solution), intent(in) :: solution
+    integer, intent(in) :: j
+    real(dp), intent(in) :: beyond
+    real(dp) :: violation
+    real(dp) :: own, terms
+
+    violation = 0.0_dp
+    own = abs(canonical%alpha(j, j) - canonical%datum)*beyond
+    terms = displacement_magnitude_at(canonical%alpha, canonical%datum, abs(solution%force) > 0.0_dp, solution%force, &
+                                      j) + abs(canonical%gap(j)) + abs(self%gap_datum) &
+            + abs(self%gap_at_stops(j) - self%reduced_gap(j)) + sum(abs(canonical%modes(j, :)*solution%motion))
+    if (own > SOFT*terms) violation = min(own/terms, 1.0_dp)
+  end function own_violation
+
   !> Forces of the wrong sign as fractions of the largest force of the body, and gaps beyond a stop as fractions of a
   !> length: the gap less the rigid displacement, which the elastic displacement has to make up for at a point in
   !> contact, and the terms of that displacement. Excluded points cannot be wrong, nor can tied ones without limits.
@@ -331,6 +352,9 @@ contains
           if (beyond <= self%zero_force) cycle
           if (.not. allocated(scale)) allocate (scale, source=canonical%force_scale(solution%force))
           self%violation(j) = beyond/scale(j)
+          if (exact .and. self%violation(j) <= SIGN_TOLERANCE) then
+            self%violation(j) = max(self%violation(j), own_violation(self, canonical, solution, j, beyond))
+          end if
           cycle
         end if
         beyond = max(-gap, gap - canonical%upper(j))

@@ -5,7 +5,7 @@
 module fuge_certificate
   use fuge_certificate_judgement, only: judge_points
   use fuge_certificate_passes, only: add_rounding_of_bodies, certificate_pass, find_arms, find_rigid_displacement, &
-    sum_open_lengths, sum_terms, survey_displacements, survey_forces, tile_lengths, TILE
+    law, sum_open_lengths, sum_terms, survey_displacements, survey_forces, tile_lengths, TILE
   use fuge_data_scales, only: data_length, largest_by_mode, largest_of_body
   use fuge_elastic_energy, only: elastic_energy, energy_units
   use fuge_kinds, only: dp
@@ -13,6 +13,7 @@ module fuge_certificate
   use fuge_operator_products, only: multiply, multiply_with_magnitude
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_point_law, only: point_law
   use fuge_point_space, only: point_space
   use fuge_relative_size, only: relative
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
@@ -263,20 +264,6 @@ contains
     violation%complementarity = violations(3)
   end subroutine judge_with_reference
 
-  !> (A + D) f of the `force` (n), less the datum of the operator, and the `terms` of it. Errors: those of the product.
-  subroutine displace(operator, pass, force, displacement, terms, info)
-    class(fuge_operator), intent(in) :: operator
-    type(certificate_pass), intent(in) :: pass
-    real(dp), intent(in) :: force(:)
-    real(dp), intent(out), contiguous :: displacement(:), terms(:)
-    type(fuge_info), intent(inout) :: info
-
-    call multiply_with_magnitude(operator, force, displacement, terms, info)
-    if (info%failed() .or. .not. associated(pass%compliance)) return
-    displacement = displacement + pass%compliance*force
-    terms = terms + pass%compliance*abs(force)
-  end subroutine displace
-
   !> `largest` (n): at each point the largest magnitude of `values` (n) on its body.
   subroutine spread_over_bodies(modes, values, space, largest)
     real(dp), intent(in) :: modes(:, :), values(:)
@@ -319,8 +306,12 @@ contains
     if (associated(pass%excluded)) then
       where (pass%excluded) largest = 0.0_dp
     end if
-    call displace(operator, pass, largest, of_bodies, terms, info)
+    call multiply_with_magnitude(operator, largest, of_bodies, terms, info)
     if (info%failed()) return
+    if (associated(pass%compliance)) then
+      call find_longest(pass, space, error, rounding)
+      call add_soft_terms(pass, largest, rounding, terms)
+    end if
     most = -huge(most)
     do k = 1, n
       if (mod(k - 1, TILE) == 0) call pass%find_lengths(k, min(k + TILE - 1, n), at)
@@ -348,6 +339,57 @@ contains
       error = error - sign(rounding, error)
     end where
   end subroutine take_out_rounding
+
+  !> Add to the `terms` (n) those of the compliances under forces as large as `largest` (n). Where the error is no force
+  !> that the point may have at its stop, but a gap, they are no larger than the `longest` (n) lengths: the rounding of
+  !> a force may displace a soft point by more than any length is rounded.
+  pure subroutine add_soft_terms(pass, largest, longest, terms)
+    type(certificate_pass), intent(in) :: pass
+    real(dp), intent(in) :: largest(:), longest(:)
+    real(dp), intent(inout) :: terms(:)
+    type(tile_lengths) :: at
+    type(point_law) :: law_here
+    real(dp) :: force, least, most, soft
+    integer :: k
+
+    do k = 1, size(terms)
+      if (mod(k - 1, TILE) == 0) call pass%find_lengths(k, min(k + TILE - 1, size(terms)), at)
+      if (.not. pass%compliance(k) > 0.0_dp .or. .not. pass%included(k)) cycle
+      law_here = law(pass, k)
+      least = 0.0_dp
+      most = 0.0_dp
+      if (pass%gap_under_load(k) <= 0.0_dp) most = law_here%most_force()
+      if (pass%gap_under_load(k) >= law_here%play) least = law_here%least_force()
+      force = pass%force(k) - at%error(mod(k - 1, TILE) + 1)/pass%compliance(k)
+      soft = pass%compliance(k)*largest(k)
+      if (force < least .or. force > most) soft = min(soft, longest(k))
+      terms(k) = terms(k) + soft
+    end do
+  end subroutine add_soft_terms
+
+  !> `longest` (n): the largest term of a gap on the body of each point. `lengths` (n) is work space.
+  subroutine find_longest(pass, space, lengths, longest)
+    type(certificate_pass), intent(in) :: pass
+    type(point_space), intent(in) :: space
+    real(dp), intent(out) :: lengths(:), longest(:)
+    type(tile_lengths) :: at
+    real(dp) :: most
+    integer :: first, k, last
+
+    do first = 1, size(lengths), TILE
+      last = min(first + TILE - 1, size(lengths))
+      call pass%find_lengths(first, last, at)
+      do k = first, last
+        lengths(k) = 0.0_dp
+        if (pass%included(k)) lengths(k) = max(abs(pass%gap(k)), at%rigid_magnitude(k - first + 1), &
+                                               at%elastic(k - first + 1))
+      end do
+    end do
+    most = space%largest(maxval(lengths))
+    longest = 0.0_dp
+    if (associated(pass%rigid)) call spread_over_bodies(pass%modes, lengths, space, longest)
+    where (.not. longest > 0.0_dp) longest = most
+  end subroutine find_longest
 
   !> The lengths that forces leave open where they dwarf the data, as a fraction of the lengths in the data; 0 up to
   !> RESOLVED. Each point counts with its share of the forces, as in the work that they do: the terms of displacements
