@@ -203,13 +203,21 @@ contains
       range = enclosure%gap_range(k)
       power = contact%point_power(k) - contact%unit
     end if
-    ! Ends that are not in range in scaled units are as good as infinite.
-    ends = [-huge(1.0_dp), huge(1.0_dp)]
-    if (exponent(claim%least) + power < maxexponent(1.0_dp)) ends(1) = scale(claim%least, power)
-    if (exponent(claim%most) + power < maxexponent(1.0_dp)) ends(2) = scale(claim%most, power)
-    if (.not. claim%least > -huge(1.0_dp)) ends(1) = -huge(1.0_dp)
-    if (.not. claim%most < huge(1.0_dp)) ends(2) = huge(1.0_dp)
+    ends = [scaled_end(claim%least, power), scaled_end(claim%most, power)]
   end subroutine find_ranges
+
+  !> An end of a range times 2**power, huge where that is out of range, as for an infinite end.
+  elemental function scaled_end(value, power) result(scaled)
+    real(dp), intent(in) :: value
+    integer, intent(in) :: power
+    real(dp) :: scaled
+
+    scaled = 0.0_dp
+    ! Zero has no exponent.
+    if (.not. abs(value) > 0.0_dp) return
+    scaled = sign(huge(value), value)
+    if (abs(value) < huge(value) .and. exponent(value) + power < maxexponent(value)) scaled = scale(value, power)
+  end function scaled_end
 
   !> Put points whose gaps are not certain at the stop that is next to them.
   pure subroutine put_at_stops(contact, problem, claims, enclosure, certain, states)
