@@ -158,6 +158,7 @@ contains
     load = problem%resultants()
     lack = raised(abs(load(1) - compensated_sum(balanced%force)) + sum_error(balanced%force) &
                   + 2.0_dp*UNIT_ROUNDOFF*abs(load(1)), 4)
+    if (lack > 0.0_dp) lack = lack + tiny(lack)
     balanced%missing = raised(lack/real(max(count(balanced%inner), 1), dp), 3)
     if (balanced%missing > margin) balanced%missing = huge(1.0_dp)
     if (lack > 0.0_dp .and. .not. any(balanced%inner)) balanced%missing = huge(1.0_dp)
@@ -183,10 +184,13 @@ contains
     type(balanced_solution), intent(inout) :: balanced
     type(fuge_info), intent(inout) :: info
     real(dp) :: constant, force_norm, from_datum, motion, terms
-    integer :: k
+    integer :: k, power
 
-    call multiply(operator, balanced%force, balanced%gap, info)
+    ! In a unit in which the largest force is about 1 nothing underflows that counts.
+    power = exponent(maxval(abs(balanced%force)))
+    call multiply(operator, scale(balanced%force, -power), balanced%gap, info)
     if (info%failed()) return
+    balanced%gap = scale(balanced%gap, power)
     ! There is at most one.
     motion = sum(solution%motion)
     if (problem%mode_count() == 1 .and. .not. is_balanced(problem)) motion = sum(problem%motion)
@@ -195,7 +199,7 @@ contains
     terms = 8.0_dp*UNIT_ROUNDOFF*(abs(from_datum) + abs(motion)) + abs(operator%datum()) &
             *(2.0_dp*sum_error(balanced%force) + real(count(balanced%inner), dp)*balanced%missing) &
             + bounds%datum_rounding*sum(abs(balanced%force))
-    balanced%motion_error = raised(terms, size(balanced%force) + 8)
+    balanced%motion_error = raised(terms, size(balanced%force) + 8) + tiny(terms)
     do k = 1, size(balanced%gap)
       associate (gap => balanced%gap(k), rounding => balanced%rounding(k))
         rounding = 4.0_dp*UNIT_ROUNDOFF*(abs(balanced%initial(k)) + abs(gap) + abs(constant))
@@ -251,10 +255,11 @@ contains
     end do
     norm = norm_bound(balanced%violation)
     norm = norm + balanced%product_error
-    balanced%force_error = raised(norm/least_of(problem, bounds), 4)
-    balanced%energy_error = raised(norm/sqrt(least_of(problem, bounds)), 5)
+    ! Quotients and products of small numbers may underflow.
+    balanced%force_error = raised(norm/least_of(problem, bounds), 4) + tiny(norm)
+    balanced%energy_error = raised(norm/sqrt(least_of(problem, bounds)), 5) + tiny(norm)
     balanced%displacement_error = raised(min(balanced%energy_error*sqrt(balanced%own_displacement), &
-                                             bounds%most*balanced%force_error), 4)
+                                             bounds%most*balanced%force_error), 4) + tiny(norm)
     if (.not. balanced%force_error <= sqrt(huge(1.0_dp))) then
       reason = 'the bounds are out of the range of double precision: choose other units'
       return
@@ -277,7 +282,7 @@ contains
     moved = min(balanced%displacement_error, bounds%most*balanced%force_error/sqrt(real(certain, dp)), &
                 balanced%energy_error*sqrt(bounds%most/real(certain, dp)))
     balanced%motion_error = raised(balanced%motion_error + from_mean + moved &
-                                   + balanced%product_error/sqrt(real(certain, dp)), 8)
+                                   + balanced%product_error/sqrt(real(certain, dp)), 8) + tiny(norm)
   end subroutine bound_errors
 
   !> How far the gap of point `k` breaks the law at most, but for its rounding.
