@@ -533,7 +533,7 @@ int fuge_get_mode_count(const fuge_solver *s, int *m);
 
 enum {                          /* state of a contact point */
   FUGE_AT_LOWER_STOP = 1,       /* gap 0, force >= 0; of either sign if tied */
-  FUGE_OPEN = 0,                /* between the stops, no force */
+  FUGE_OPEN = 0,                /* between the stops, or beyond one of limit 0; no force */
   FUGE_AT_UPPER_STOP = -1,      /* gap = play, force <= 0 */
   FUGE_LIMITED_LOWER = 2,       /* force at the limit of the lower stop, gap <= 0 */
   FUGE_LIMITED_UPPER = -2       /* force at the limit of the upper stop, gap >= play */

@@ -15,7 +15,8 @@ module fuge_contact_states
 
   !> State of a contact point: the gap is zero, the force is not negative (either sign if tied).
   integer, parameter, public :: FUGE_AT_LOWER_STOP = 1
-  !> State of a contact point: the gap lies between the stops, the force is zero.
+  !> State of a contact point: the gap lies between the stops, or beyond one that takes no force; the force is
+  !> zero.
   integer, parameter, public :: FUGE_OPEN = 0
   !> State of a contact point: the gap equals the play, the force is not positive.
   integer, parameter, public :: FUGE_AT_UPPER_STOP = -1

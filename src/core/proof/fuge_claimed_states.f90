@@ -48,8 +48,8 @@ contains
     state = state_by_law(law, state)
   end function state_of
 
-  !> A state that the `law` has, `state` if it does: no stop without a play, no limit that is infinite, and no force
-  !> where it is limited to zero.
+  !> A state that the `law` has, `state` if it does: no stop without a play, no limit that is infinite, and no stop or
+  !> limit of a point that cannot have a force.
   pure function state_by_law(law, state) result(possible)
     type(point_law), intent(in) :: law
     integer, intent(in) :: state
@@ -61,9 +61,7 @@ contains
     if (possible == FUGE_LIMITED_UPPER .and. .not. law%limit_upper < huge(1.0_dp)) possible = FUGE_AT_UPPER_STOP
     if (possible < 0 .and. .not. law%play < huge(1.0_dp)) possible = FUGE_OPEN
     if (possible == FUGE_AT_UPPER_STOP .and. .not. law%play > 0.0_dp) possible = FUGE_AT_LOWER_STOP
-    ! A point without a force is open, as in a solve, whatever its gap.
-    if (possible == FUGE_LIMITED_LOWER .and. .not. law%limit > 0.0_dp) possible = FUGE_OPEN
-    if (possible == FUGE_LIMITED_UPPER .and. .not. law%limit_upper > 0.0_dp) possible = FUGE_OPEN
+    ! A point that cannot have a force is open, as in a solve, whatever its gap.
     if (.not. max(law%limit, law%limit_upper) > 0.0_dp) possible = FUGE_OPEN
   end function state_by_law
 

@@ -11,7 +11,7 @@
 !>    certain, this is a solution of the whole problem, and by 1 the only one.
 module fuge_matrix_proof
   use fuge_claimed_states, only: claim_point, point_claim, state_by_law, state_of
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_problem_type, only: fuge_problem, fuge_solution
@@ -65,11 +65,12 @@ contains
     type(point_claim), allocatable :: claims(:)
     type(set_enclosure) :: enclosure
     integer, allocatable :: states(:)
-    logical, allocatable :: certain(:)
+    logical, allocatable :: as_said(:), certain(:)
     logical :: is_proved
     integer :: k, set, stat
 
-    allocate (states(contact%points), claims(contact%points), certain(contact%points), stat=stat)
+    allocate (states(contact%points), claims(contact%points), as_said(contact%points), certain(contact%points), &
+              stat=stat)
     call require_memory(stat, 'the states of', contact%points, 'points', info)
     if (stat /= 0) return
     states = [(state_by_law(problem%law(k), state_of(problem, solution, k)), k=1, contact%points)]
@@ -81,25 +82,30 @@ contains
       if (is_proved .or. all(certain .or. claims%at_stop) .or. .not. enclosure%is_enclosed) exit
       call put_at_stops(contact, problem, claims, enclosure, certain, states)
     end do
+    as_said = states == [(state_of(problem, solution, k), k=1, contact%points)]
     if (is_proved) then
       call fill_proof(contact, problem, solution, claims, enclosure, proof)
-      proof%state_proved = certain .and. states == [(state_of(problem, solution, k), k=1, contact%points)]
+      proof%state_proved = certain .and. as_said
     end if
     if (enclosure%in_range) then
-      call report_states(certain, enclosure%is_enclosed, is_proved, info)
+      call report_states(certain, as_said, enclosure%is_enclosed, is_proved, info)
     else
       call report(info, FUGE_WARN_NOT_PROVED, 'a play or a limit at which a point is said to be is out of range ' &
                   //'beside the other numbers: leave it out')
     end if
   end subroutine prove_states
 
-  !> Say which states are not `certain`, and why nothing is proved, unless it is.
-  pure subroutine report_states(certain, is_enclosed, is_proved, info)
-    logical, intent(in) :: certain(:), is_enclosed, is_proved
+  !> Say which states are not `certain`, or not `as_said` by the solution, and why nothing is proved, unless it is.
+  pure subroutine report_states(certain, as_said, is_enclosed, is_proved, info)
+    logical, intent(in) :: certain(:), as_said(:), is_enclosed, is_proved
     type(fuge_info), intent(inout) :: info
 
-    if (is_proved .and. all(certain)) return
-    if (is_proved) then
+    if (is_proved .and. all(certain .and. as_said)) return
+    if (is_proved .and. all(certain)) then
+      call report(info, info%status, text(count(.not. as_said))//' point(s) are in another state than the solution ' &
+                  //'says, the first is point '//index_text(findloc(as_said, .false., 1))//': solve again, or leave ' &
+                  //'the states out')
+    else if (is_proved) then
       call report(info, info%status, text(count(.not. certain))//' point(s) are so close to the border of two states ' &
                   //'that theirs are not proved, the first is point '//index_text(findloc(certain, .false., 1)))
     else if (is_enclosed) then
@@ -232,8 +238,8 @@ contains
 
     do k = 1, size(states)
       if (certain(k) .or. claims(k)%at_stop .or. .not. contact%included(k)) cycle
-      if (abs(claims(k)%known) > 0.0_dp) then
-        states(k) = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, claims(k)%known > 0.0_dp)
+      if (states(k) /= FUGE_OPEN) then
+        states(k) = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, states(k) > FUGE_OPEN)
       else
         call find_ranges(contact, claims(k), enclosure, k, range, ends)
         ! Each end is a stop, and at least one is not infinite: halves do not overflow.

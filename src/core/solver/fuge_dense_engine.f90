@@ -4,7 +4,7 @@ module fuge_dense_engine
   use fuge_canonical_problem, only: canonical_problem, make_canonical
   use fuge_contact_engine, only: matrix_engine
   use fuge_contact_solution, only: allocate_solution, contact_solution
-  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_contact_states, only: FUGE_LIMITED_LOWER, FUGE_OPEN
   use fuge_force_error, only: estimate_force_error
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: dp
@@ -93,11 +93,28 @@ contains
         if (allocated(self%springs)) deallocate (self%springs)
         call solve_with_matrix(self, operator, problem, options, monitor, history, solution, info)
       end if
+      if (info%failed()) return
+      call open_beyond_stops(problem, solution%state)
+      self%state(:size(solution%state)) = solution%state
     class default
       call report(info, FUGE_ERR_UNSUPPORTED, 'this engine needs the coefficients of a dense operator: use ' &
                   //'FUGE_ITERATIVE for other operators')
     end select
   end subroutine solve
+
+  !> Beyond a stop that takes no force a point is open; a tied one has no other state there.
+  pure subroutine open_beyond_stops(problem, state)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(inout) :: state(:)
+
+    if (.not. allocated(problem%limit)) return
+    if (allocated(problem%gap_upper)) then
+      where (state == FUGE_LIMITED_LOWER .and. .not. problem%limit > 0.0_dp .and. problem%gap_upper > 0.0_dp) &
+        state = FUGE_OPEN
+    else
+      where (state == FUGE_LIMITED_LOWER .and. .not. problem%limit > 0.0_dp) state = FUGE_OPEN
+    end if
+  end subroutine open_beyond_stops
 
   !> With springs of zero only: the matrix is that of the caller.
   subroutine solve_without_springs(self, operator, problem, options, monitor, history, solution, info)

@@ -25,7 +25,9 @@ contains
     do k = 1, size(scene%gap)
       associate (force => iterate%force(k), limited => iterate%limited(k))
         limited = 0
-        if (force > 0.0_dp .and. force >= scene%limit(k)) limited = 1
+        ! Beyond a stop that takes no force a point is open; a tied one has no other state there.
+        if (force > 0.0_dp .and. force >= scene%limit(k)) limited = merge(1, 0, scene%limit(k) > 0.0_dp .or. &
+                                                                          scene%is_tied(k))
         if (scene%play(k) < huge(force)) then
           if (force < 0.0_dp .and. -force >= scene%limit_upper(k)) limited = -1
         end if
