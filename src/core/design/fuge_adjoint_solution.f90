@@ -13,8 +13,9 @@ module fuge_adjoint_solution
   use fuge_gradients_type, only: fuge_gradients
   use fuge_kinds, only: dp
   use fuge_kink_search, only: mark_kinks, warn_of_kinks
-  use fuge_law_gradients, only: find_law_gradients, set_displacement
+  use fuge_law_gradients, only: displacement_is_lost, find_law_gradients, set_displacement
   use fuge_number_text, only: text
+  use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
   use fuge_problem_modes, only: prescribed_motions, resultants_of
@@ -22,6 +23,7 @@ module fuge_adjoint_solution
   use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
+  use fuge_threads, only: thread_team
   implicit none
   private
 
@@ -32,16 +34,17 @@ contains
   !> The gradient of an objective J(force, gap, motion) at the last solution of `solver`, exact as long as the contact
   !> set stays, over all gaps, loads, and the other data of the problem, in the time of one derivative.
   !>
-  !> `operator`, `problem` and `solution` those of the last solve. `weight` the partial derivatives of J by `force` (n),
-  !> `gap` (n) and `motion` (m); those that are not allocated are zero. `gradients` see there. A solve with a factor
-  !> takes triangular solves with it; after the iteration it takes products on the contact set, to the tolerance of the
-  !> solve, and one more if there are weights of open gaps. `info` is that of the solve, whose warnings hold for the
-  !> gradient too, with these products added; FUGE_WARN_KINK if there is none, but points on the border between two
-  !> states, which gradients%at_kink has. Errors, `gradients` untouched: FUGE_ERR_CALL_ORDER without a solution with a
-  !> load, or if `solution` is not the last one; FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE; FUGE_ERR_OPTION where weights of
-  !> motions differ between ranks; those of the derivative, FUGE_ERR_NO_EQUILIBRIUM if J depends on a motion that the
-  !> contact does not resist; FUGE_ERR_OVERFLOW; those of the product. T. F. Conry and A. Seireg, J. Applied Mechanics
-  !> 38 (1971), 387-392, design with such problems.
+  !> `operator`, `problem` and `solution` those of the last solve. `weight` the partial derivatives of J by `force`
+  !> (n), `gap` (n) and `motion` (m); those that are not allocated are zero. `gradients` see there. A solve with a
+  !> factor takes triangular solves with it; after the iteration it takes products on the contact set, to the tolerance
+  !> of the solve, one more if there are weights of open gaps, and one if displacements are small beside gaps or
+  !> compliances. `info` is that of the solve, whose warnings hold for the gradient too, with these products added;
+  !> FUGE_WARN_KINK if there is none, but points on the border between two states, which gradients%at_kink has. Errors,
+  !> `gradients` untouched: FUGE_ERR_CALL_ORDER without a solution with a load, or if `solution` is not the last one;
+  !> FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE; FUGE_ERR_OPTION where weights of motions differ between ranks; those of the
+  !> derivative, FUGE_ERR_NO_EQUILIBRIUM if J depends on a motion that the contact does not resist; FUGE_ERR_OVERFLOW;
+  !> those of the product. T. F. Conry and A. Seireg, J. Applied Mechanics 38 (1971), 387-392, design with such
+  !> problems.
   subroutine fuge_solve_adjoint(solver, operator, problem, solution, weight, gradients, info)
     class(fuge_solver), intent(in) :: solver
     class(fuge_operator), intent(in) :: operator
@@ -75,7 +78,7 @@ contains
     call space%agree(info)
     if (info%failed()) return
     call set_gradients(problem, solution, weights, adjoint, space, new)
-    call set_law_gradients(operator, problem, solution, weights, space, new, info)
+    call set_law_gradients(operator, problem, solution, weights, solver%thread_count(), space, new, info)
     if (.not. info%failed()) call multiply_gradients(weights%factor, space, new, info)
     if (info%failed()) return
     call warn_of_kinks(new%at_kink, space, info)
@@ -149,15 +152,18 @@ contains
     end associate
   end subroutine set_gradients
 
-  !> The gradients that follow from those by gaps and loads, and points at a kink. Error: FUGE_ERR_MEMORY.
-  subroutine set_law_gradients(operator, problem, solution, weights, space, gradients, info)
+  !> The gradients that follow from those by gaps and loads, and points at a kink. Errors: FUGE_ERR_MEMORY, those of the
+  !> product.
+  subroutine set_law_gradients(operator, problem, solution, weights, threads, space, gradients, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     type(adjoint_weights), intent(in) :: weights
+    integer, intent(in) :: threads
     type(point_space), intent(in) :: space
     type(fuge_gradients), intent(inout) :: gradients
     type(fuge_info), intent(inout) :: info
+    type(thread_team) :: team
     real(dp), allocatable :: displacement(:)
     real(dp) :: constant
     integer :: stat
@@ -168,6 +174,13 @@ contains
     if (info%failed()) return
     constant = operator%datum()*space%total(sum(solution%force))
     call set_displacement(problem, solution, constant, weights%translation, displacement)
+    if (space%anywhere(displacement_is_lost(problem, solution, displacement))) then
+      call team%begin(threads)
+      call multiply(operator, solution%force, displacement, info)
+      call team%end()
+      if (info%failed()) return
+      if (.not. any(abs(weights%translation) > 0.0_dp)) displacement = displacement + constant
+    end if
     call find_law_gradients(problem, solution, weights%given, displacement, constant, weights%translation, space, &
                             gradients)
     call mark_kinks(problem, solution, displacement, space, info, gradients%at_kink)

@@ -12,7 +12,10 @@ module fuge_law_gradients
   implicit none
   private
 
-  public :: find_law_gradients, find_limited, set_displacement
+  public :: displacement_is_lost, find_law_gradients, find_limited, set_displacement
+
+  !> Where the terms of displacements are larger than these by this factor, too many digits cancel.
+  real(dp), parameter :: MOST_CANCELLED = 2.0_dp**10
 
 contains
 
@@ -79,5 +82,18 @@ contains
     call add_rigid_displacement(problem, solution%motion - constant*translation, displacement)
     if (allocated(problem%compliance)) displacement = displacement - problem%compliance*solution%force
   end subroutine set_displacement
+
+  !> Has `displacement` (n), by `set_displacement`, lost digits beside large gaps, motions or compliances?
+  pure function displacement_is_lost(problem, solution, displacement) result(lost)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp), intent(in) :: displacement(:)
+    logical :: lost
+    real(dp) :: most
+
+    most = MOST_CANCELLED*maxval(abs(displacement))
+    lost = any(max(abs(problem%gap), abs(solution%gap)) > most)
+    if (allocated(problem%compliance)) lost = lost .or. any(problem%compliance*abs(solution%force) > most)
+  end function displacement_is_lost
 
 end module fuge_law_gradients
