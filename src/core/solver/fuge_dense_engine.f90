@@ -15,8 +15,8 @@ module fuge_dense_engine
   use fuge_options_type, only: fuge_options, FUGE_ACTIVE_SET, FUGE_AUTO, FUGE_TABLEAU
   use fuge_problem_type, only: fuge_problem, fuge_solution, move_solution
   use fuge_sensitivity, only: find_derivative
-  use fuge_spring_matrix, only: extend_problem, find_spring_motions, name_springs, needs_springs, &
-    scale_force_error, shift_spring_forces, spring_matrix, strip_solution
+  use fuge_spring_matrix, only: extend_problem, find_spring_motions, hold_stiff_motions, name_springs, &
+    needs_springs, scale_force_error, shift_spring_forces, spring_matrix, strip_solution
   use fuge_spring_monitor, only: spring_monitor
   use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED, &
     FUGE_ERR_CALL_ORDER, FUGE_ERR_CANCELLED, FUGE_ERR_UNSUPPORTED
@@ -148,26 +148,28 @@ contains
     ! Taken out of the engine, which changes while the operator points to it.
     type(spring_matrix), allocatable, target :: springs
     type(fuge_dense_operator) :: with_springs
-    type(fuge_problem) :: extended
+    type(fuge_problem) :: extended, holding
 
     call move_alloc(self%springs, springs)
     if (.not. allocated(springs)) allocate (springs)
-    call springs%set(operator, problem, info)
-    if (.not. info%failed()) call extend_problem(problem, extended, info)
+    call hold_stiff_motions(operator, problem, holding, info)
+    if (.not. info%failed()) call springs%set(operator, problem, info, holding)
+    if (.not. info%failed()) call extend_problem(holding, extended, info)
     if (.not. info%failed()) then
       call springs%as_operator(with_springs)
       relay%listener => monitor
-      relay%springs = problem%spring_count()
+      relay%springs = holding%spring_count()
       call solve_with_matrix(self, with_springs, extended, options, relay, history, solution, info)
       if (.not. info%failed() .and. relay%springs > 0) then
-        call correct_spring_loads(self, with_springs, problem, extended, options, relay, solution, info)
+        call correct_spring_loads(self, with_springs, holding, extended, options, relay, solution, info)
       end if
-      call name_springs(problem, info)
+      call name_springs(holding, info)
     end if
     call move_alloc(springs, self%springs)
     if (info%failed()) return
-    self%spring_points = problem%spring_count()
-    call find_spring_motions(problem, extended, solution%force, solution%motion)
+    self%spring_points = holding%spring_count()
+    call find_spring_motions(holding, extended, solution%force, solution%motion)
+    call self%springs%find_held_motions(problem%resultants(), solution%force, solution%motion)
     call strip_solution(problem%points(), solution, info)
   end subroutine solve_with_springs
 
@@ -398,8 +400,11 @@ contains
     ! Not allocated it counts as absent.
     if (present(wanted)) wanted_too = [wanted, spread(.false., 1, self%spring_points)]
     call find_derivative(self%canonical, with_springs, self%factor, self%state, &
-                         [gap_change, spread(0.0_dp, 1, self%spring_points)], load_change, change, info, wanted_too)
-    if (.not. info%failed()) call strip_solution(size(gap_change), change, info)
+                         [gap_change, spread(0.0_dp, 1, self%spring_points)], springs%held_changes(load_change), &
+                         change, info, wanted_too)
+    if (info%failed()) return
+    call springs%find_held_motions(load_change, change%force, change%motion)
+    call strip_solution(size(gap_change), change, info)
   end subroutine derivative_with_springs
 
   !> As for `matrix_engine`.

@@ -2,8 +2,10 @@
 !>
 !> Compliances stand on the diagonal. A spring on a motion is a tied point more, which that motion alone moves, as far
 !> as the point that it moves most, its arm: the force there times the arm is the part of the resultant that the spring
-!> carries, so that it is compared with other forces. The matrix is a copy, because that of the caller must stay as it
-!> is.
+!> carries, so that it is compared with other forces. A spring far stiffer than the points that it holds would lose
+!> their lengths in the rounding of other motions: its motion is held, prescribed as its load alone would move it, and
+!> what the contact forces take back is a part of the matrix. The matrix is a copy, because that of the caller must stay
+!> as it is.
 module fuge_spring_matrix
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
   use, intrinsic :: iso_c_binding, only: c_long_long
@@ -22,6 +24,9 @@ module fuge_spring_matrix
   !> A spring is stiff if its resultant moves it by less than this fraction of how far the points get.
   real(dp), parameter :: BELOW = 0.1_dp
 
+  !> Motions are held by springs that give way by less than this fraction of what the points do.
+  real(dp), parameter :: HELD = 2.0_dp**(-10)
+
   type, public :: spring_matrix
     private
     !> The matrix, (n + springs, n + springs); length per force.
@@ -29,32 +34,48 @@ module fuge_spring_matrix
     !> What was made into it: the matrix of the caller, and the springs.
     integer(c_long_long) :: source = 0
     real(dp), allocatable :: compliance(:), motion_compliance(:)
+    !> The numbers of the motions that are held, their stiffnesses, (h), and their modes, (n, h).
+    integer, allocatable :: held(:)
+    real(dp), allocatable :: held_stiffness(:), held_modes(:, :)
     type(matrix_survey) :: survey
     integer(c_long_long) :: stamp = 0
   contains
     procedure :: set
     procedure :: as_operator
+    procedure :: held_changes
+    procedure :: find_held_motions
     procedure :: clear
   end type spring_matrix
 
-  public :: balance_springs, extend_problem, find_spring_motions, name_springs, needs_springs, scale_force_error, &
-    shift_spring_forces, strip_solution
+  public :: balance_springs, extend_problem, find_spring_motions, hold_stiff_motions, name_springs, needs_springs, &
+    scale_force_error, shift_spring_forces, strip_solution
 
 contains
 
-  !> Add the springs of `problem` to the matrix of `operator`, unless that was done before. Errors: FUGE_ERR_MEMORY,
-  !> FUGE_ERR_OVERFLOW for a stiffness so small that its compliance overflows.
-  subroutine set(self, operator, problem, info)
+  !> Add the springs of `problem` to the matrix of `operator`, unless that was done before. Motions on springs that
+  !> `holding`, as from `hold_stiff_motions`, prescribes have no point. Errors: FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW for a
+  !> stiffness so small that its compliance overflows.
+  subroutine set(self, operator, problem, info, holding)
     class(spring_matrix), intent(inout) :: self
     class(fuge_dense_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_info), intent(inout) :: info
-    real(dp) :: compliance(operator%points()), stiffness(problem%spring_count()), arm(problem%spring_count())
-    integer :: k, n, stat
+    type(fuge_problem), intent(in), optional :: holding
+    type(spring_matrix) :: wanted
+    real(dp), dimension(problem%spring_count()) :: stiffness, arm
+    logical :: on_spring(problem%mode_count()), is_held(problem%mode_count())
+    integer :: j, k, n, stat
 
     n = operator%points()
-    compliance = 0.0_dp
-    if (allocated(problem%compliance)) compliance = problem%compliance
+    on_spring = problem%motions_on_springs()
+    is_held = .false.
+    if (present(holding)) is_held = on_spring .and. .not. holding%motions_on_springs()
+    wanted%held = pack([(j, j=1, size(is_held))], is_held)
+    allocate (wanted%compliance(n), wanted%held_modes(n, size(wanted%held)), stat=stat)
+    call require_memory(stat, 'the springs of', n, 'points', info)
+    if (stat /= 0) return
+    wanted%compliance = 0.0_dp
+    if (allocated(problem%compliance)) wanted%compliance = problem%compliance
     stiffness = spring_stiffnesses(problem)
     arm = spring_arms(problem)
     do k = 1, size(stiffness)
@@ -63,41 +84,143 @@ contains
                   //': choose units in which it is larger, or 0 for no spring')
       return
     end do
-    if (is_same(self, operator, compliance, arm*(arm/stiffness))) return
+    wanted%motion_compliance = pack(arm*(arm/stiffness), .not. pack(is_held, on_spring))
+    wanted%held_stiffness = pack(stiffness, pack(is_held, on_spring))
+    do k = 1, size(wanted%held)
+      wanted%held_modes(:, k) = mode_of(problem, wanted%held(k))
+    end do
+    if (is_same(self, operator, wanted)) return
     call self%clear()
-    allocate (self%alpha(n + size(stiffness), n + size(stiffness)), self%compliance(n), &
-              self%motion_compliance(size(stiffness)), stat=stat)
+    call fill(self, operator, wanted, info)
+  end subroutine set
+
+  !> Make the matrix of `operator` and the springs that are `wanted`. Error: FUGE_ERR_MEMORY.
+  subroutine fill(self, operator, wanted, info)
+    class(spring_matrix), intent(inout) :: self
+    class(fuge_dense_operator), intent(in) :: operator
+    type(spring_matrix), intent(inout) :: wanted
+    type(fuge_info), intent(inout) :: info
+    integer :: h, k, n, points, stat
+
+    n = operator%points()
+    points = n + size(wanted%motion_compliance)
+    allocate (self%alpha(points, points), stat=stat)
     call require_memory(stat, 'the influence matrix with springs of', n, 'points', info)
     if (stat /= 0) return
     do k = 1, n
       self%alpha(:n, k) = operator%alpha(:n, k)
       self%alpha(n + 1:, k) = 0.0_dp
-      self%alpha(k, k) = self%alpha(k, k) + compliance(k)
+      self%alpha(k, k) = self%alpha(k, k) + wanted%compliance(k)
+      do h = 1, size(wanted%held)
+        self%alpha(:n, k) = self%alpha(:n, k) + wanted%held_modes(:, h)*wanted%held_modes(k, h)/wanted%held_stiffness(h)
+      end do
     end do
-    do k = 1, size(stiffness)
+    do k = 1, points - n
       self%alpha(:, n + k) = 0.0_dp
-      self%alpha(n + k, n + k) = arm(k)*(arm(k)/stiffness(k))
+      self%alpha(n + k, n + k) = wanted%motion_compliance(k)
     end do
     call survey_matrix(self%alpha, self%survey)
-    self%compliance = compliance
-    self%motion_compliance = arm*(arm/stiffness)
+    call move_alloc(wanted%compliance, self%compliance)
+    call move_alloc(wanted%motion_compliance, self%motion_compliance)
+    call move_alloc(wanted%held, self%held)
+    call move_alloc(wanted%held_stiffness, self%held_stiffness)
+    call move_alloc(wanted%held_modes, self%held_modes)
     self%source = operator%stamp()
     self%stamp = new_stamp()
-  end subroutine set
+  end subroutine fill
 
-  !> Was the matrix made of the same one, and the same springs?
-  pure function is_same(self, operator, compliance, motion_compliance) result(same)
-    type(spring_matrix), intent(in) :: self
-    class(fuge_dense_operator), intent(in) :: operator
-    real(dp), intent(in) :: compliance(:), motion_compliance(:)
+  !> Was the matrix made of the same one, and the springs that are `wanted`?
+  pure function is_same(self, operator, wanted) result(same)
+    type(spring_matrix), intent(in) :: self, wanted
+    type(fuge_dense_operator), intent(in) :: operator
     logical :: same
 
     same = allocated(self%alpha) .and. self%source > 0 .and. self%source == operator%stamp()
-    if (same) same = size(self%motion_compliance) == size(motion_compliance) &
-                     .and. size(self%compliance) == size(compliance)
-    if (same) same = .not. (any(abs(self%motion_compliance - motion_compliance) > 0.0_dp) &
-                            .or. any(abs(self%compliance - compliance) > 0.0_dp))
+    if (same) same = size(self%motion_compliance) == size(wanted%motion_compliance) &
+                     .and. size(self%compliance) == size(wanted%compliance) &
+                     .and. size(self%held) == size(wanted%held)
+    if (same) same = .not. (any(abs(self%motion_compliance - wanted%motion_compliance) > 0.0_dp) &
+                            .or. any(abs(self%compliance - wanted%compliance) > 0.0_dp) &
+                            .or. any(self%held /= wanted%held) &
+                            .or. any(abs(self%held_stiffness - wanted%held_stiffness) > 0.0_dp) &
+                            .or. any(abs(self%held_modes - wanted%held_modes) > 0.0_dp))
   end function is_same
+
+  !> The displacement of each point by a unit of a motion, (n).
+  pure function mode_of(problem, motion) result(mode)
+    type(fuge_problem), intent(in) :: problem
+    integer, intent(in) :: motion
+    real(dp) :: mode(problem%points())
+
+    mode = 1.0_dp
+    if (allocated(problem%modes)) mode = problem%modes(:, motion)
+  end function mode_of
+
+  !> The same problem, `holding` the motions whose springs are far stiffer than the points or other springs: they are
+  !> prescribed as their loads alone would move them. The rounding of the coefficients must not hide softer points, so
+  !> each point gives way by much more than the spring, or not at all. Error: FUGE_ERR_MEMORY.
+  subroutine hold_stiff_motions(operator, problem, holding, info)
+    class(fuge_dense_operator), intent(in) :: operator
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_problem), intent(out) :: holding
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: own(problem%points()), added(problem%points()), given(problem%mode_count()), most
+    real(dp), dimension(problem%spring_count()) :: arm, compliance
+    logical :: left(problem%spring_count())
+    integer :: j, k, motion(problem%spring_count())
+
+    call copy_problem(problem, holding, info)
+    if (info%failed() .or. problem%spring_count() < 1) return
+    motion = pack([(j, j=1, problem%mode_count())], problem%motions_on_springs())
+    arm = spring_arms(problem)
+    compliance = arm*(arm/spring_stiffnesses(problem))
+    own = [(abs(operator%alpha(k, k)), k=1, size(own))]
+    if (allocated(problem%compliance)) own = own + problem%compliance
+    most = max(maxval(own), maxval(compliance))
+    ! `set` refuses a spring that soft.
+    if (.not. most <= huge(most)) return
+    given = 0.0_dp
+    if (allocated(problem%prescribed)) given = problem%prescribed_motion()
+    left = .true.
+    do k = 1, size(motion)
+      j = minloc(compliance, dim=1, mask=left)
+      left(j) = .false.
+      if (.not. compliance(j) <= HELD*most) exit
+      added = mode_of(problem, motion(j))/arm(j)
+      added = added*added*compliance(j)
+      if (any(own > 0.0_dp .and. added > HELD*own)) cycle
+      own = own + added
+      if (.not. allocated(holding%prescribed)) holding%prescribed = spread(.false., 1, size(given))
+      holding%prescribed(motion(j)) = .true.
+      given(motion(j)) = problem%resultant(motion(j))/problem%motion_stiffness(motion(j))
+    end do
+    if (allocated(holding%prescribed)) holding%motion = given
+  end subroutine hold_stiff_motions
+
+  !> Changes of resultants, (m), with those of the held motions instead where these are prescribed.
+  pure function held_changes(self, load_change) result(changes)
+    class(spring_matrix), intent(in) :: self
+    real(dp), intent(in) :: load_change(:)
+    real(dp) :: changes(size(load_change))
+
+    changes = load_change
+    changes(self%held) = load_change(self%held)/self%held_stiffness
+  end function held_changes
+
+  !> The held ones of the motions (m), from their loads (m) and what the forces of the points, (at least n), take of
+  !> them.
+  pure subroutine find_held_motions(self, load, force, motion)
+    class(spring_matrix), intent(in) :: self
+    real(dp), intent(in) :: load(:), force(:)
+    real(dp), intent(inout) :: motion(:)
+    integer :: h
+
+    do h = 1, size(self%held)
+      associate (j => self%held(h))
+        motion(j) = compensated_dot(load(j), self%held_modes(:, h), force(:size(self%compliance)))/self%held_stiffness(h)
+      end associate
+    end do
+  end subroutine find_held_motions
 
   !> Forget the matrix and release its memory.
   pure subroutine clear(self)
@@ -106,6 +229,7 @@ contains
     if (allocated(self%alpha)) deallocate (self%alpha)
     if (allocated(self%compliance)) deallocate (self%compliance)
     if (allocated(self%motion_compliance)) deallocate (self%motion_compliance)
+    if (allocated(self%held)) deallocate (self%held, self%held_stiffness, self%held_modes)
     self%source = 0
   end subroutine clear
 
