@@ -1,5 +1,6 @@
 !> The last word on every solution: the report from the certificate.
 module fuge_certified_solution
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_certificate, only: find_violation, fuge_violation
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
@@ -8,7 +9,7 @@ module fuge_certified_solution
   use fuge_point_chunks, only: chunked_pass, CHUNK
   use fuge_point_space, only: point_space
   use fuge_rim_contact, only: remark_contact_at_rim
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_OVERFLOW, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED
   implicit none
   private
 
@@ -43,6 +44,9 @@ contains
     space = operator%ranks()
     info%contacts = space%total_count(count_contacts(solution%force))
     info%residual = violation%worst()
+    ! Where a value is no number the residual is huge, and the values of a good one need not be looked at.
+    if (info%residual >= huge(info%residual)) call require_range(solution, space, info)
+    if (info%failed()) return
     if (violation%unresolved > tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'the forces reach ' &
                   //text(space%largest(maxval(abs(solution%force))))//' and dwarf the ' &
@@ -60,6 +64,18 @@ contains
       call remark_contact_at_rim(operator, solution%force, info)
     end if
   end subroutine certify
+
+  !> Refuse a solution in which a force, a gap or a motion has left the range of double precision (FUGE_ERR_OVERFLOW).
+  subroutine require_range(solution, space, info)
+    type(fuge_solution), intent(in) :: solution
+    type(point_space), intent(in) :: space
+    type(fuge_info), intent(inout) :: info
+
+    if (space%everywhere(all(ieee_is_finite(solution%force)) .and. all(ieee_is_finite(solution%gap)) &
+                         .and. all(ieee_is_finite(solution%motion)))) return
+    call report(info, FUGE_ERR_OVERFLOW, 'forces, gaps or motions leave the range of double precision: choose units ' &
+                //'in which forces, lengths and their ratios are nearer to 1')
+  end subroutine require_range
 
   !> How many of the forces (n) are not zero.
   function count_contacts(force) result(contacts)

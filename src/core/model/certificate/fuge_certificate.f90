@@ -281,7 +281,8 @@ contains
   !> Where all forces that displace a point are zero but for rounding, so is its magnitude, with which nothing can be
   !> compared. There the error becomes smaller by the rounding of forces as large as the largest one of the body (M.
   !> Arioli, J. W. Demmel, I. S. Duff, SIAM Journal on Matrix Analysis and Applications 10, 1989), and everywhere by
-  !> that of the motions, which follow from all displacements of the body.
+  !> that of the motions, which follow from all displacements of the body. Motions on springs follow from the loads that
+  !> these carry too: where all gaps are zero, how far a load alone moves a point is the only length of the data.
   !>
   !> `error` (n) are the errors that remain. One more product. Errors: those of the product, FUGE_ERR_MEMORY.
   subroutine take_out_rounding(operator, pass, error, info)
@@ -292,7 +293,7 @@ contains
     type(point_space) :: space
     type(tile_lengths) :: at
     real(dp), allocatable, dimension(:) :: largest, of_bodies, rounding, terms
-    real(dp) :: most
+    real(dp) :: most, reach(pass%problem%mode_count()), widest
     integer :: k, n, stat
 
     space = operator%ranks()
@@ -313,10 +314,14 @@ contains
       call add_soft_terms(pass, largest, rounding, terms)
     end if
     most = -huge(most)
+    reach = spring_reach(pass%problem)
+    widest = space%largest(maxval(abs(pass%gap)))
+    if (.not. widest > 0.0_dp) widest = huge(widest)
     do k = 1, n
       if (mod(k - 1, TILE) == 0) call pass%find_lengths(k, min(k + TILE - 1, n), at)
       associate (elastic => at%elastic(mod(k - 1, TILE) + 1), magnitude => at%magnitude(mod(k - 1, TILE) + 1), &
-                 rigid => abs(pass%gap(k)) + at%rigid_magnitude(mod(k - 1, TILE) + 1))
+                 rigid => abs(pass%gap(k)) + at%rigid_magnitude(mod(k - 1, TILE) + 1) &
+                          + min(reach_at(pass, reach, k), widest))
         error(k) = at%error(mod(k - 1, TILE) + 1)
         if (.not. pass%included(k) .or. magnitude > NO_SCALE*terms(k)) terms(k) = 0.0_dp
         rounding(k) = NO_SCALE*terms(k)
@@ -390,6 +395,32 @@ contains
     if (associated(pass%rigid)) call spread_over_bodies(pass%modes, lengths, space, longest)
     where (.not. longest > 0.0_dp) longest = most
   end subroutine find_longest
+
+  !> How far the load of each motion on a spring alone would move it, (m); 0 without a spring.
+  pure function spring_reach(problem) result(reach)
+    type(fuge_problem), intent(in) :: problem
+    real(dp) :: reach(problem%mode_count())
+    real(dp) :: stiffness(problem%mode_count())
+
+    reach = 0.0_dp
+    stiffness = problem%stiffnesses()
+    ! The quotient must not overflow.
+    where (stiffness > 0.0_dp) reach = min(abs(problem%resultants()), huge(reach)*min(stiffness, 1.0_dp))/stiffness
+  end function spring_reach
+
+  !> How far the motions, each as far as `reach` (m), move point `k`.
+  pure function reach_at(pass, reach, k) result(length)
+    type(certificate_pass), intent(in) :: pass
+    real(dp), intent(in) :: reach(:)
+    integer, intent(in) :: k
+    real(dp) :: length
+
+    if (associated(pass%rigid)) then
+      length = sum(abs(pass%modes(k, :))*reach)
+    else
+      length = sum(reach)
+    end if
+  end function reach_at
 
   !> The lengths that forces leave open where they dwarf the data, as a fraction of the lengths in the data; 0 up to
   !> RESOLVED. Each point counts with its share of the forces, as in the work that they do: the terms of displacements

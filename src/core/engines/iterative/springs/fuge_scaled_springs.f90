@@ -39,7 +39,8 @@ module fuge_scaled_springs
     integer :: contact_points = 0
     !> The force of each point in the scaled problem times this is the force, (n + s); lengths are divided by it.
     real(dp), allocatable :: unit(:)
-    !> The compliances of the points of springs in the scaled problem, (s), and of the bodies, length per force.
+    !> The compliances of the points of springs in the scaled problem, (s), and of the bodies, length per force; of hard
+    !> bodies on springs that of the stiffest spring.
     real(dp), allocatable :: compliance(:)
     real(dp) :: usual = 0.0_dp
   contains
@@ -87,6 +88,7 @@ contains
     if (allocated(problem%compliance)) then
       where (problem%compliance > SOFT*self%usual) self%unit(:n) = similar_unit(SOFT*self%usual, problem%compliance)
     end if
+    if (.not. self%usual > 0.0_dp .and. any(on_spring)) self%usual = stiffest_spring(problem, on_spring)
     k = 0
     do j = 1, size(on_spring)
       if (.not. on_spring(j)) cycle
@@ -101,6 +103,26 @@ contains
       end associate
     end do
   end subroutine set
+
+  !> The compliance of the stiffest one of the springs that are marked, (m), length per force; 0 if all are too soft.
+  pure function stiffest_spring(problem, on_spring) result(compliance)
+    type(fuge_problem), intent(in) :: problem
+    logical, intent(in) :: on_spring(:)
+    real(dp) :: compliance
+    real(dp) :: arm(size(on_spring)), each
+    integer :: j
+
+    compliance = huge(compliance)
+    arm = problem%arms()
+    do j = 1, size(on_spring)
+      if (.not. on_spring(j)) cycle
+      if (.not. arm(j) > 0.0_dp) arm(j) = 1.0_dp
+      if (2*exponent(arm(j)) - exponent(problem%motion_stiffness(j)) > LARGEST_EXPONENT) cycle
+      each = arm(j)*(arm(j)/problem%motion_stiffness(j))
+      compliance = min(compliance, each)
+    end do
+    if (.not. compliance < huge(compliance)) compliance = 0.0_dp
+  end function stiffest_spring
 
   !> The unit in which `compliance` is about the `usual` one.
   elemental function similar_unit(usual, compliance) result(unit)
@@ -224,7 +246,7 @@ contains
         length = max(length, maxval(scaled%gap_upper, mask=scaled%gap_upper < huge(length)))
       end if
     end if
-    if (self%usual*largest <= NO_LENGTH*length) solution%force = 0.0_dp
+    if (self%usual*largest < NO_LENGTH*length) solution%force = 0.0_dp
     where (abs(solution%force) <= ROUNDINGS*epsilon(length)*largest) solution%force = 0.0_dp
     largest = maxval(abs(solution%force), mask=abs(solution%state) == FUGE_AT_LOWER_STOP)
     largest = max(largest, 0.0_dp)
