@@ -7,6 +7,7 @@ submodule(fuge_solver_type) fuge_solve_procedure
   use fuge_force_level, only: explain_by_force_level, judge_force_level
   use fuge_monitor_type, only: monitor_relay
   use fuge_options_type, only: check_options
+  use fuge_own_springs, only: settle_own_springs
   use fuge_problem_bounds, only: begins_with_one
   use fuge_problem_type, only: check_problem, copy_problem, move_solution
   use fuge_product_engine, only: product_engine
@@ -159,6 +160,7 @@ contains
     else if (.not. problem%has_law()) then
       call explain_by_force_level(operator, problem, options%tolerance, info)
     end if
+    if (.not. info%failed()) call settle_own_springs(operator, problem, solution)
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
     if (.not. info%failed()) call engine%keep(operator, problem, solution)
   end subroutine solve_and_certify

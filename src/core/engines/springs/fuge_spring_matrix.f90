@@ -216,8 +216,8 @@ contains
     integer :: h
 
     do h = 1, size(self%held)
-      associate (j => self%held(h))
-        motion(j) = compensated_dot(load(j), self%held_modes(:, h), force(:size(self%compliance)))/self%held_stiffness(h)
+      associate (j => self%held(h), of_points => force(:size(self%compliance)))
+        motion(j) = compensated_dot(load(j), self%held_modes(:, h), of_points)/self%held_stiffness(h)
       end associate
     end do
   end subroutine find_held_motions
