@@ -640,8 +640,9 @@ int fuge_prove(const fuge_solver *s, double *force_bound, double *gap_bound,
  * a warning, which holds for the gradient too: points lie on the border between two states, as one
  * that touches without force, and the gradient is that of one side of a kink.  After the iteration
  * products on the contact set, and one more for weights of gaps; fuge_get_gradients takes one where
- * displacements are small beside gaps or compliances.  Errors as for fuge_get_derivatives; FUGE_ERR_NO_EQUILIBRIUM if J depends on a motion that the contact does not
- * resist; FUGE_ERR_OVERFLOW; those of the product. */
+ * displacements are small beside gaps or compliances.  Errors as for fuge_get_derivatives;
+ * FUGE_ERR_NO_EQUILIBRIUM if J depends on a motion that the contact does not resist;
+ * FUGE_ERR_OVERFLOW; those of the product. */
 int fuge_get_adjoint(const fuge_solver *s, const double *force_weight, const double *gap_weight,
                      const double *motion_weight, double *gap_gradient, double *load_gradient);
 
