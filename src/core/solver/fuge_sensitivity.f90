@@ -22,6 +22,8 @@ module fuge_sensitivity
   real(dp), parameter :: CLOSED_TOLERANCE = 1.0e-8_dp
   !> A large datum may be rounded by this many units in its last place.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
+  !> Corrections where the gaps do not close, as those of a regularised factor; else one is enough.
+  integer, parameter :: MOST_CORRECTIONS = 6
 
 contains
 
@@ -93,8 +95,8 @@ contains
   end subroutine find_derivative
 
   !> Forces (n) and free motions (m) of the set in `contact` (n), whose factor has lost digits where alpha is badly
-  !> conditioned or there are several modes: corrected once by the residuals. `fits`: the gaps were closed before that
-  !> already, but for rounding. The arguments are ten, because the datum is taken out of alpha for the residuals:
+  !> conditioned or there are several modes: corrected by the residuals, once where the gaps were closed before that
+  !> already, but for rounding, `fits`. The arguments are ten, because the datum is taken out of alpha for the residuals:
   !> `datums` that of the operator, and that of the factor.
   subroutine solve_refined(canonical, alpha, datums, factor, contact, reduced_gap, load, force, motion, fits)
     type(canonical_problem), intent(in) :: canonical
@@ -105,15 +107,19 @@ contains
     real(dp), intent(out) :: force(:), motion(:)
     logical, intent(out) :: fits
     real(dp) :: residual(size(force)), correction(size(force)), missing(size(motion)), shift(size(motion))
+    integer :: step
 
     call solve_set(factor, datums(1), reduced_gap, load, force, motion)
-    residual = reduced_gap - rigid_displacement(canonical%modes, motion)
-    call add_displacement_at(alpha, datums(1), contact, .not. contact, force, residual)
-    fits = is_closed(canonical%modes, alpha, datums, contact, reduced_gap, force, motion, residual)
-    missing = load - matmul(force, canonical%modes)
-    call solve_set(factor, datums(1), residual, missing, correction, shift)
-    force = force + correction
-    motion = motion + shift
+    do step = 1, MOST_CORRECTIONS
+      residual = reduced_gap - rigid_displacement(canonical%modes, motion)
+      call add_displacement_at(alpha, datums(1), contact, .not. contact, force, residual)
+      fits = is_closed(canonical%modes, alpha, datums, contact, reduced_gap, force, motion, residual)
+      missing = load - matmul(force, canonical%modes)
+      call solve_set(factor, datums(1), residual, missing, correction, shift)
+      force = force + correction
+      motion = motion + shift
+      if (fits) exit
+    end do
   end subroutine solve_refined
 
   !> Are the changes of the `gap` (n) on the contact zero, but for rounding? `datums`: that of the operator, taken out
