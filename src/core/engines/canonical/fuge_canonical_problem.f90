@@ -23,6 +23,9 @@ module fuge_canonical_problem
 
   public :: make_canonical
 
+  !> Modes that were found numerically are wrong by up to this fraction of their largest entries.
+  real(dp), parameter :: ROUNDING_OF_MODES = 1.0e-11_dp
+
   !> c = gap + alpha f - modes q with R^T f = load; see `fuge_problem` for the conditions on f and c.
   type, extends(given_motions), public :: canonical_problem
     !> Influence matrix, (at least n rows, n columns), length per force; owned by the caller.
@@ -289,7 +292,26 @@ contains
     end do
   end subroutine number_points
 
+  !> What may be the rounding of the `modes` (n, p) in the loads on a body, which `force` (n) nearly carries; p modes,
+  !> those in `columns` (p).
+  function negligible_load(canonical, modes, columns, force) result(load)
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: modes(:, :), force(:)
+    integer, intent(in) :: columns(:)
+    real(dp) :: load
+    real(dp) :: carried(size(columns))
+
+    carried = matmul(force, modes)
+    call canonical%space%add(carried)
+    load = 0.0_dp
+    ! Where ranks share the points, forces that lack something are not given.
+    if (any(abs(carried) > 0.0_dp)) load = ROUNDING_OF_MODES*maxval(abs(canonical%load(columns)))
+  end function negligible_load
+
   !> Find forces in equilibrium with the loads on one body, whose modes are marked in `member` (m).
+  !>
+  !> Where a load needs forces that are just zero, the rounding of modes that were found numerically may take it beyond
+  !> what the points can carry: then it is moved back.
   !>
   !> `rounding` (m) is that of the loads; `remainder` (m) gets the proof that there are no such forces. Error:
   !> FUGE_ERR_MEMORY.
@@ -324,8 +346,11 @@ contains
       call find_shared_equilibrium(canonical%space, modes, canonical%load(columns), pushes, pulls, force, rest, noise)
     end if
     if (any(abs(rest) > 0.0_dp)) then
-      remainder(columns) = rest
-      return
+      if (.not. all(abs(rest) <= negligible_load(canonical, modes, columns, force))) then
+        remainder(columns) = rest
+        return
+      end if
+      canonical%load(columns) = canonical%load(columns) - rest
     end if
     if (.not. canonical%has_limits()) then
       call move_to_edge(canonical%space, modes, noise, canonical%load, columns, force, info)
