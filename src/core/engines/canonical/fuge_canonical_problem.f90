@@ -23,8 +23,9 @@ module fuge_canonical_problem
 
   public :: make_canonical
 
-  !> Modes that were found numerically are wrong by up to this fraction of their largest entries.
-  real(dp), parameter :: ROUNDING_OF_MODES = 1.0e-11_dp
+  !> Loads may be wrong by this fraction of the largest one where modes were found numerically, but a resultant by no
+  !> more than the second fraction of its own terms.
+  real(dp), parameter :: ROUNDING_OF_MODES = 1.0e-11_dp, MOST_LACKING = 1.0e-6_dp
 
   !> c = gap + alpha f - modes q with R^T f = load; see `fuge_problem` for the conditions on f and c.
   type, extends(given_motions), public :: canonical_problem
@@ -271,13 +272,43 @@ contains
       if (body(j) == j) call balance_body(body == j, rounding, canonical, remainder, info)
       if (info%failed()) return
     end do
-    if (any(abs(remainder) > 0.0_dp)) then
+    if (.not. any(abs(remainder) > 0.0_dp)) return
+    if (lacks_next_to_nothing(problem, canonical, remainder)) then
+      canonical%load = canonical%load - remainder
+    else
       canonical%unbalanced = canonical%change%given_motion(remainder)
       call report_no_equilibrium(problem, canonical%free, canonical%change, canonical%excluded, &
                                  any(canonical%upper < huge(1.0_dp) .and. .not. canonical%excluded), remainder, &
                                  canonical%space, info)
     end if
   end subroutine require_equilibrium
+
+  !> Is the `remainder` (m) of the loads, which the forces found lack, next to nothing? A load that needs forces of just
+  !> zero is taken beyond what the points can carry by the rounding of modes that were found numerically: by a small
+  !> fraction of the loads, and also of each resultant of the caller or of its terms, of which it would otherwise leave
+  !> little.
+  function lacks_next_to_nothing(problem, canonical, remainder) result(lacks)
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(in) :: canonical
+    real(dp), intent(in) :: remainder(:)
+    logical :: lacks
+    real(dp) :: sums(2*size(canonical%free)), row(size(canonical%free))
+    integer :: k, m
+
+    m = size(canonical%free)
+    sums = 0.0_dp
+    row = 1.0_dp
+    do k = 1, size(canonical%feasible_force)
+      if (allocated(problem%modes)) row = problem%modes(k, canonical%free)
+      sums = sums + [row, abs(row)]*[spread(canonical%feasible_force(k), 1, m), &
+                                     spread(abs(canonical%feasible_force(k)), 1, m)]
+    end do
+    call canonical%space%add(sums)
+    associate (resultant => problem%resultant(canonical%free))
+      lacks = maxval(abs(remainder)) <= ROUNDING_OF_MODES*maxval(abs(canonical%load)) &
+              .and. all(abs(resultant - sums(:m)) <= MOST_LACKING*max(abs(resultant), sums(m + 1:)))
+    end associate
+  end function lacks_next_to_nothing
 
   !> The body of each point is that of the modes that move it. `body` (m).
   pure subroutine number_points(body, canonical)
@@ -292,26 +323,7 @@ contains
     end do
   end subroutine number_points
 
-  !> What may be the rounding of the `modes` (n, p) in the loads on a body, which `force` (n) nearly carries; p modes,
-  !> those in `columns` (p).
-  function negligible_load(canonical, modes, columns, force) result(load)
-    type(canonical_problem), intent(in) :: canonical
-    real(dp), intent(in) :: modes(:, :), force(:)
-    integer, intent(in) :: columns(:)
-    real(dp) :: load
-    real(dp) :: carried(size(columns))
-
-    carried = matmul(force, modes)
-    call canonical%space%add(carried)
-    load = 0.0_dp
-    ! Where ranks share the points, forces that lack something are not given.
-    if (any(abs(carried) > 0.0_dp)) load = ROUNDING_OF_MODES*maxval(abs(canonical%load(columns)))
-  end function negligible_load
-
   !> Find forces in equilibrium with the loads on one body, whose modes are marked in `member` (m).
-  !>
-  !> Where a load needs forces that are just zero, the rounding of modes that were found numerically may take it beyond
-  !> what the points can carry: then it is moved back.
   !>
   !> `rounding` (m) is that of the loads; `remainder` (m) gets the proof that there are no such forces. Error:
   !> FUGE_ERR_MEMORY.
@@ -346,13 +358,8 @@ contains
       call find_shared_equilibrium(canonical%space, modes, canonical%load(columns), pushes, pulls, force, rest, noise)
     end if
     if (any(abs(rest) > 0.0_dp)) then
-      if (.not. all(abs(rest) <= negligible_load(canonical, modes, columns, force))) then
-        remainder(columns) = rest
-        return
-      end if
-      canonical%load(columns) = canonical%load(columns) - rest
-    end if
-    if (.not. canonical%has_limits()) then
+      remainder(columns) = rest
+    else if (.not. canonical%has_limits()) then
       call move_to_edge(canonical%space, modes, noise, canonical%load, columns, force, info)
     end if
     if (.not. info%failed()) canonical%feasible_force = canonical%feasible_force + force
