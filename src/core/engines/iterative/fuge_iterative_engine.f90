@@ -9,7 +9,7 @@ module fuge_iterative_engine
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, start_iterate
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_set_search, only: find_contact_set, note_states
+  use fuge_contact_set_search, only: find_contact_set, note_states, report_unbounded
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_contact_window, only: solve_in_window, survey_level
   use fuge_engine_messages, only: idle_forces, report_closed_gap, SINGULAR_AND_UNRESISTED, SINGULAR_ON_CONTACT
@@ -295,8 +295,8 @@ contains
   end subroutine start_on_coarser_grids
 
   !> Refuse prescribed motions at which the mean gap is closed by more than the rounding of the gaps, where equal forces
-  !> displace nothing, as on a periodic surface: no forces resist it. Errors: FUGE_ERR_NO_EQUILIBRIUM, those of
-  !> equal_forces_displace_nothing.
+  !> displace nothing, as on a periodic surface: no forces resist it. Errors: FUGE_ERR_NO_EQUILIBRIUM,
+  !> FUGE_ERR_NOT_DEFINITE without motions, those of equal_forces_displace_nothing.
   subroutine check_approach(operator, problem, scene, info)
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -305,8 +305,6 @@ contains
     real(dp) :: largest, mean
 
     if (.not. scene%is_simple() .or. .not. scene%prescribed) return
-    ! Without any motion there is none to change.
-    if (problem%mode_count() < 1) return
     mean = scene%rows%total(sum(scene%gap))/real(scene%points(), dp)
     largest = scene%rows%largest(max(maxval(abs(scene%gap)), maxval(abs(problem%gap))))
     if (.not. allocated(problem%modes)) largest = max(abs(problem%motion(1)), &
@@ -314,7 +312,10 @@ contains
     if (mean >= -ROUNDINGS*epsilon(mean)*largest*sqrt(real(scene%points(), dp))) return
     if (.not. equal_forces_displace_nothing(operator, info)) return
     if (info%failed()) return
-    if (allocated(problem%modes)) then
+    if (problem%mode_count() < 1) then
+      ! Without any motion there is none to change.
+      call report_unbounded(1, info)
+    else if (allocated(problem%modes)) then
       call report_closed_gap(-mean, operator%grid(), info)
     else
       call report(info, FUGE_ERR_NO_EQUILIBRIUM, idle_forces(operator%grid())//', so no forces hold the approach ' &

@@ -33,7 +33,7 @@ module fuge_contact_set_search
   implicit none
   private
 
-  public :: find_contact_set, find_states, note_states
+  public :: find_contact_set, find_states, note_states, report_unbounded
 
   !> Limits whose sum is beyond the load by this fraction carry just the load.
   real(dp), parameter :: NEARLY = 1.0e-8_dp
@@ -199,8 +199,8 @@ contains
   !> the forces only, and no forces close a mean gap that the approach leaves open.
   !>
   !> The points whose forces are above the mean stay: those in contact under the least load. Where the mean gap is
-  !> closed, the contact stays complete, under the least load that closes it. On the finest grid no forces raise a
-  !> negative mean gap (FUGE_ERR_NOT_DEFINITE).
+  !> closed, the contact stays complete, under the least load that closes it: on a coarser grid, or on the finest one
+  !> but for rounding.
   subroutine solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
@@ -213,10 +213,6 @@ contains
 
     sums = [sum(scene%gap), sum(abs(scene%gap))]
     call scene%rows%add(sums)
-    if (.not. settings%coarse_grid .and. sums(1) < -ROUNDINGS*epsilon(1.0_dp)*sums(2)) then
-      call report_unbounded(1, scene%has_limits(), info)
-      return
-    end if
     iterate%prescribed = .false.
     call solve_on_contact_set(operator, settings, preconditioner, scene, .false., monitor, iterate, info)
     iterate%prescribed = .true.
