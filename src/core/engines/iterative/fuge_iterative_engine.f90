@@ -314,7 +314,7 @@ contains
     if (info%failed()) return
     if (problem%mode_count() < 1) then
       ! Without any motion there is none to change.
-      call report_unbounded(1, info)
+      call report_unbounded(1, scene%has_limits(), info)
     else if (allocated(problem%modes)) then
       call report_closed_gap(-mean, operator%grid(), info)
     else
