@@ -61,6 +61,10 @@ contains
     if (possible == FUGE_LIMITED_UPPER .and. .not. law%limit_upper < huge(1.0_dp)) possible = FUGE_AT_UPPER_STOP
     if (possible < 0 .and. .not. law%play < huge(1.0_dp)) possible = FUGE_OPEN
     if (possible == FUGE_AT_UPPER_STOP .and. .not. law%play > 0.0_dp) possible = FUGE_AT_LOWER_STOP
+    ! Beyond a stop that takes no force a point is open, as in a solve; a tied one is limited below it.
+    if (possible == FUGE_LIMITED_UPPER .and. .not. law%limit_upper > 0.0_dp) possible = FUGE_OPEN
+    if (any(possible == [FUGE_OPEN, FUGE_LIMITED_LOWER]) .and. .not. law%limit > 0.0_dp) &
+      possible = merge(FUGE_OPEN, FUGE_LIMITED_LOWER, law%play > 0.0_dp)
     ! A point that cannot have a force is open, as in a solve, whatever its gap.
     if (.not. max(law%limit, law%limit_upper) > 0.0_dp) possible = FUGE_OPEN
   end function state_by_law
