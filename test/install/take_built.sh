@@ -1,7 +1,7 @@
 #!/bin/sh
 # take_built.sh compiler argument ..: compile a Fortran source, or take what the build in the folder BUILT has made of
 # it. That needs the same flags, FLAGS, an object newer than the source in SOURCE_DIR, and modules in use that are the
-# same to the byte; -Werror and -fPIC do not count, the library has the latter in any case. Without BUILT, and for all
+# same to the byte; -Werror, limits of frames and -fPIC do not count, the library has the latter in any case. Without BUILT, and for all
 # else, the compiler does it, with the options FURTHER too.
 # The scripts of the tests set BUILT, FLAGS and SOURCE_DIR in the environment; CMake runs this as a launcher.
 object='' modules=. flags='' file='' previous=''
@@ -9,7 +9,7 @@ for word; do
   case $previous$word in
     -o?*) object=$word ;;
     -J?*) modules=${word#-J} ;;
-    -J | -o | -I* | -c | -fPIC | -ffree-form | -fimplicit-none | -nocpp | -Werror*) ;;
+    -J | -o | -I* | -c | -fPIC | -ffree-form | -fimplicit-none | -nocpp | -Werror* | -Wframe-larger-than=*) ;;
     -*) flags="$flags $word" ;;
     *.f90) file=$word ;;
   esac
