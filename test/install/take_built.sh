@@ -1,8 +1,8 @@
 #!/bin/sh
 # take_built.sh compiler argument ..: compile a Fortran source, or take what the build in the folder BUILT has made of
 # it. That needs the same flags, FLAGS, an object newer than the source in SOURCE_DIR, and modules in use that are the
-# same to the byte; -Werror, limits of frames and -fPIC do not count, the library has the latter in any case. Without BUILT, and for all
-# else, the compiler does it, with the options FURTHER too.
+# same to the byte; -Werror, limits of frames and -fPIC do not count, the library has the latter in any case. Without
+# BUILT, and for all else, the compiler does it, with the options FURTHER too.
 # The scripts of the tests set BUILT, FLAGS and SOURCE_DIR in the environment; CMake runs this as a launcher.
 object='' modules=. flags='' file='' previous=''
 for word; do
@@ -52,6 +52,8 @@ is_built() {
   for module in $(sed -n 's/^ *use *\(, *[a-z]* *::\)\{0,1\} *\([a-z_0-9]*\).*/\2/p' "$text"); do
     is_same "$module" || return 1
   done
+  parent=$(sed -n 's/^submodule(\([a-z_0-9]*\)).*/\1/p' "$text")
+  [ -z "$parent" ] || is_same "$parent" || return 1
   declared=$(sed -n 's/^module *\([a-z_0-9]*\) *$/\1/p' "$text")
   for module in $declared; do
     [ -e "$modules_built/$module.mod" ] || return 1
@@ -64,5 +66,7 @@ is_built || exec "$@" ${FURTHER:-}
 for module in $declared; do
   # As a compiler, which leaves one that has not changed.
   cmp -s "$modules_built/$module.mod" "$modules/$module.mod" || cp "$modules_built/$module.mod" "$modules" || exit 1
+  # What its submodules read.
+  [ ! -e "$modules_built/$module.smod" ] || cp "$modules_built/$module.smod" "$modules" || exit 1
 done
 cp "$built" "$object"
