@@ -281,8 +281,9 @@ contains
   !> Where all forces that displace a point are zero but for rounding, so is its magnitude, with which nothing can be
   !> compared. There the error becomes smaller by the rounding of forces as large as the largest one of the body (M.
   !> Arioli, J. W. Demmel, I. S. Duff, SIAM Journal on Matrix Analysis and Applications 10, 1989), and everywhere by
-  !> that of the motions, which follow from all displacements of the body. Motions on springs follow from the loads that
-  !> these carry too: where all gaps are zero, how far a load alone moves a point is the only length of the data.
+  !> that of the motions, which follow from all displacements of the body. Motions on springs follow from the loads
+  !> that these carry too: where all gaps are zero and no body gives way, how far a load alone moves a point is the
+  !> only length.
   !>
   !> `error` (n) are the errors that remain. One more product. Errors: those of the product, FUGE_ERR_MEMORY.
   subroutine take_out_rounding(operator, pass, error, info)
@@ -315,7 +316,12 @@ contains
     end if
     most = -huge(most)
     reach = spring_reach(pass%problem)
-    widest = space%largest(maxval(abs(pass%gap)))
+    widest = 0.0_dp
+    do k = 1, n
+      if (mod(k - 1, TILE) == 0) call pass%find_lengths(k, min(k + TILE - 1, n), at)
+      if (pass%included(k)) widest = max(widest, abs(pass%gap(k)), at%elastic(mod(k - 1, TILE) + 1))
+    end do
+    widest = space%largest(widest)
     if (.not. widest > 0.0_dp) widest = huge(widest)
     do k = 1, n
       if (mod(k - 1, TILE) == 0) call pass%find_lengths(k, min(k + TILE - 1, n), at)
