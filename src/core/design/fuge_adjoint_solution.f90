@@ -158,10 +158,9 @@ contains
   end subroutine set_gradients
 
   !> Beside a large datum of the matrix, which the weights of open gaps leave out in the end, gradients by loads lose
-  !> their digits: there they come from the derivative by the load, by which nothing cancels. Errors: those of the
-  !> derivative.
+  !> their digits: there they come from the derivative by the load, by which nothing cancels, and whose products are not
+  !> counted. Errors: those of the derivative.
   subroutine restore_load_gradients(solver, operator, weights, space, gradients, info)
-    use fuge_adjoint_weights, only: adjoint_weights
     class(fuge_solver), intent(in) :: solver
     class(fuge_operator), intent(in) :: operator
     type(adjoint_weights), intent(in) :: weights
@@ -209,7 +208,8 @@ contains
     if (info%failed()) return
     constant = operator%datum()*space%total(sum(solution%force))
     call set_displacement(problem, solution, constant, weights%translation, displacement)
-    if (space%anywhere(displacement_is_lost(problem, solution, displacement))) then
+    if (space%anywhere(displacement_is_lost(problem, solution, &
+                                            space%largest(maxval(abs(displacement)))))) then
       call team%begin(threads)
       call multiply(operator, solution%force, displacement, info)
       call team%end()

@@ -83,17 +83,21 @@ contains
     if (allocated(problem%compliance)) displacement = displacement - problem%compliance*solution%force
   end subroutine set_displacement
 
-  !> Has `displacement` (n), by `set_displacement`, lost digits beside large gaps, motions or compliances?
-  pure function displacement_is_lost(problem, solution, displacement) result(lost)
+  !> Have displacements by `set_displacement`, the `largest` of all ranks, lost digits beside large gaps, motions or
+  !> compliances?
+  pure function displacement_is_lost(problem, solution, largest) result(lost)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
-    real(dp), intent(in) :: displacement(:)
+    real(dp), intent(in) :: largest
     logical :: lost
+    logical :: counts(size(problem%gap))
     real(dp) :: most
 
-    most = MOST_CANCELLED*maxval(abs(displacement))
-    lost = any(max(abs(problem%gap), abs(solution%gap)) > most)
-    if (allocated(problem%compliance)) lost = lost .or. any(problem%compliance*abs(solution%force) > most)
+    most = MOST_CANCELLED*largest
+    counts = .true.
+    if (allocated(problem%excluded)) counts = .not. problem%excluded
+    lost = any(counts .and. max(abs(problem%gap), abs(solution%gap)) > most)
+    if (allocated(problem%compliance)) lost = lost .or. any(counts .and. problem%compliance*abs(solution%force) > most)
   end function displacement_is_lost
 
 end module fuge_law_gradients

@@ -103,6 +103,10 @@ contains
       return
     end if
     do j = 1, problem%mode_count()
+      ! A prescribed motion has any resultant.
+      if (allocated(problem%prescribed)) then
+        if (problem%prescribed(j)) cycle
+      end if
       associate (mode => problem%modes(:, j))
         keeps = keeps .and. abs(sum(mode*(force - before))) <= IN_BALANCE*sum(abs(mode*before))
       end associate

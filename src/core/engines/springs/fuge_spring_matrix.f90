@@ -176,6 +176,7 @@ contains
     compliance = arm*(arm/spring_stiffnesses(problem))
     own = [(abs(operator%alpha(k, k)), k=1, size(own))]
     if (allocated(problem%compliance)) own = own + problem%compliance
+    if (allocated(problem%excluded)) where (problem%excluded) own = 0.0_dp
     most = max(maxval(own), maxval(compliance))
     ! `set` refuses a spring that soft.
     if (.not. most <= huge(most)) return

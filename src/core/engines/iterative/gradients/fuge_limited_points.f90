@@ -32,7 +32,8 @@ contains
           if (force < 0.0_dp .and. -force >= scene%limit_upper(k)) limited = -1
         end if
         iterate%at_upper(k) = force < 0.0_dp .and. scene%play(k) < huge(force) .and. .not. scene%is_tied(k)
-        iterate%contact(k) = limited == 0 .and. (force > 0.0_dp .or. iterate%at_upper(k) .or. scene%is_tied(k))
+        iterate%contact(k) = limited == 0 .and. ((force > 0.0_dp .and. scene%limit(k) > 0.0_dp) &
+                                                 .or. iterate%at_upper(k) .or. scene%is_tied(k))
         if (allocated(scene%excluded)) then
           if (scene%excluded(k)) limited = 0
           iterate%contact(k) = iterate%contact(k) .and. .not. scene%excluded(k)
