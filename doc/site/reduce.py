@@ -8,7 +8,7 @@ procedures. Docstrings are left as they are.
 
 import re
 
-PROCEDURE = re.compile(r"\s*(?:(?:pure|elemental|recursive|impure)\s+)*(subroutine|function)\s+(\w+)", re.I)
+PROCEDURE = re.compile(r"\s*(?:(?:pure|elemental|recursive|impure|module)\s+)*(subroutine|function)\s+(\w+)", re.I)
 TYPE = re.compile(r"\s*type\b(?!\s*\().*::\s*(\w+)\s*$", re.I)
 BINDING = re.compile(r"\s*procedure\b[^:]*::\s*\w+(?:\s*=>\s*(\w+))?", re.I)
 # Finalisers concern the compiler only.
