@@ -102,9 +102,13 @@ def reduced(source, keep):
         out.append("  public :: " + ", ".join(sorted(interfaces)))
     for doc, block in held:
         out += _specification(doc, block, keep)
+    # What submodules define is shown as if the module did.
+    procedures = [inner for _, block in held for inner in _of_submodules(block)]
     if split < end:
-        out.append(lines[split])
-        for doc, block in _Reader(lines[split + 1:end]).blocks():
+        procedures += _Reader(lines[split + 1:end]).blocks()
+    if procedures:
+        out.append("contains")
+        for doc, block in procedures:
             name = PROCEDURE.match(block[0]) if block else None
             if name and (name.group(2) in keep or name.group(2) in bound):
                 out += [""] + doc + block
@@ -117,6 +121,14 @@ def without_uses(source, modules):
         return match.group(0) if match.group(1) in modules else ""
     return re.sub(r"^ *use\b(?:, *intrinsic *::)? *(\w+)[^\n]*(?:(?<=&)\n[^\n]*)*\n", keep, source, flags=re.M)
 
+
+
+def _of_submodules(block):
+    """The procedures, without their bodies, that an interface says submodules define."""
+    if not block or not re.match(r"\s*interface\s*$", block[0], re.I):
+        return []
+    found = [(doc, inner) for doc, inner in _Reader(block[1:-1]).blocks() if inner and PROCEDURE.match(inner[0])]
+    return [(doc, [re.sub(r"\bmodule +(?=subroutine|function)", "", inner[0]), *inner[1:]]) for doc, inner in found]
 
 
 def _specification(doc, block, keep):
