@@ -18,6 +18,7 @@ import textwrap
 HOLDS = {
     "core": "problem, engines, certificate, half-plane",
     "area": "half-space, rings, Hertz",
+    "layers": "elastic layers, graded bodies",
     "punch": "smooth and round punches, no grid",
     "stress": "stresses inside, the largest",
     "fe": "stiffness, pairs, bodies",
@@ -28,7 +29,7 @@ HOLDS = {
     "sparse": "CHOLMOD",
     "program": "the program fuge",
 }
-SIX = {"core", "area", "punch", "stress", "fe", "files"}
+SEVEN = {"core", "area", "layers", "punch", "stress", "fe", "files"}
 
 BOX_HEIGHT, LAYER_GAP, BOX_GAP, FRAME_PAD, MARGIN = 80, 36, 14, 8, 8
 # For a page of 800 pixels: lines of more than LINE_LENGTH letters are broken.
@@ -278,7 +279,7 @@ def node_shapes(node, x, y):
 
 def box_shapes(component, begin, y):
     width = box_width(component)
-    fill = "#dcecf7" if component in SIX else "#fbe9d0"
+    fill = "#dcecf7" if component in SEVEN else "#fbe9d0"
     parts = [f'<rect x="{begin:.1f}" y="{y:.1f}" width="{width:.1f}" height="{BOX_HEIGHT}" rx="5" '
              f'fill="{fill}" stroke="#4a5563"/>']
     name, contents = box_lines(component)
