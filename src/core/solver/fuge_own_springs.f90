@@ -9,6 +9,7 @@ module fuge_own_springs
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_matrix_survey, only: matrix_survey
   use fuge_operator_type, only: fuge_operator
+  use fuge_point_law, only: point_law
   use fuge_problem_type, only: fuge_problem, fuge_solution
   implicit none
   private
@@ -83,7 +84,7 @@ contains
         if (abs(open(k) - compliance*force(k)) <= ROUNDED*terms(k)) cycle
         if (exponent(open(k)) - exponent(compliance) > LARGEST_EXPONENT) cycle
         ! Another sign, or a force beyond a limit, would be another state.
-        if (sign(1.0_dp, open(k))*force(k) > 0.0_dp .and. is_within_limits(problem, k, open(k)/compliance)) &
+        if (sign(1.0_dp, open(k))*force(k) > 0.0_dp .and. carries(problem%law(k), open(k)/compliance)) &
           force(k) = open(k)/compliance
       end associate
     end do
@@ -113,16 +114,13 @@ contains
     end do
   end function keeps_balance
 
-  !> Does point `k` carry this `force`?
-  pure function is_within_limits(problem, k, force) result(within)
-    type(fuge_problem), intent(in) :: problem
-    integer, intent(in) :: k
+  !> Is this a force that a point of such a law can have?
+  pure function carries(law, force)
+    type(point_law), intent(in) :: law
     real(dp), intent(in) :: force
-    logical :: within
+    logical :: carries
 
-    within = .true.
-    if (allocated(problem%limit)) within = force <= problem%limit(k)
-    if (allocated(problem%limit_upper)) within = within .and. -force <= problem%limit_upper(k)
-  end function is_within_limits
+    carries = force >= law%least_force() .and. force <= law%most_force()
+  end function carries
 
 end module fuge_own_springs

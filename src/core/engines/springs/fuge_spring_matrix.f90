@@ -100,9 +100,13 @@ contains
     class(fuge_dense_operator), intent(in) :: operator
     type(spring_matrix), intent(inout) :: wanted
     type(fuge_info), intent(inout) :: info
+    real(dp) :: arm(size(wanted%held))
     integer :: h, k, n, points, stat
 
     n = operator%points()
+    ! Products of modes alone may leave the range of numbers.
+    arm = maxval(abs(wanted%held_modes), dim=1)
+    where (.not. arm > 0.0_dp) arm = 1.0_dp
     points = n + size(wanted%motion_compliance)
     allocate (self%alpha(points, points), stat=stat)
     call require_memory(stat, 'the influence matrix with springs of', n, 'points', info)
@@ -112,7 +116,8 @@ contains
       self%alpha(n + 1:, k) = 0.0_dp
       self%alpha(k, k) = self%alpha(k, k) + wanted%compliance(k)
       do h = 1, size(wanted%held)
-        self%alpha(:n, k) = self%alpha(:n, k) + wanted%held_modes(:, h)*wanted%held_modes(k, h)/wanted%held_stiffness(h)
+        self%alpha(:n, k) = self%alpha(:n, k) + (wanted%held_modes(:, h)/arm(h))*(wanted%held_modes(k, h)/arm(h)) &
+                            *(arm(h)*(arm(h)/wanted%held_stiffness(h)))
       end do
     end do
     do k = 1, points - n
