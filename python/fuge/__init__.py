@@ -95,7 +95,7 @@ from fuge.cases import Cases as Cases, Envelope as Envelope, envelope as envelop
 from fuge.cells import Cells as Cells
 from fuge.columns import CompressedColumns as CompressedColumns
 from fuge.contact import Contact as Contact, Derivative as Derivative, History as History, Info as Info
-from fuge.deck import Deck as Deck, read_deck as read_deck
+from fuge.deck import Deck as Deck
 from fuge.design import Gradients as Gradients, WantedContact as WantedContact
 from fuge.errors import (
     CallbackError as CallbackError,
@@ -123,7 +123,6 @@ from fuge.errors import (
     Warning as Warning,
 )
 from fuge.files import (
-    StiffnessFile as StiffnessFile,
     SurfaceHeights as SurfaceHeights,
     fill_surface as fill_surface,
     level_profile as level_profile,
@@ -140,6 +139,7 @@ from fuge.files import (
     write_surface as write_surface,
     write_volume as write_volume,
 )
+from fuge.formats.decks import read_deck as read_deck
 from fuge.halfplane import (
     ContactEdges as ContactEdges,
     EdgeKind as EdgeKind,
@@ -205,6 +205,7 @@ from fuge.smooth import (
     solve_smooth_punch as solve_smooth_punch,
 )
 from fuge.solver import Solver as Solver, solve as solve
+from fuge.stiffness_rows import StiffnessFile as StiffnessFile
 from fuge.stress import (
     halfplane_displacement as halfplane_displacement,
     halfplane_stress as halfplane_stress,

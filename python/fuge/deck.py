@@ -1,22 +1,89 @@
-"""One-way links and load cases from decks of Nastran, Abaqus and CalculiX, and from tables."""
+"""One-way links and load cases: what decks and tables say beside the mesh and the stiffness matrix."""
 
 from __future__ import annotations
 
-import ctypes
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fuge import _arrays
-from fuge._calls import Handle, Owner, call, new_handle
-from fuge.files import PathLike, StiffnessFile, encoded
+from fuge.errors import InputError, Status
+from fuge.formats.text import Place, Reason
 from fuge.links import Links
+from fuge.stiffness_rows import RowNames, StiffnessFile
 
-# The longest name of a link or a load case.
-_NAME_LENGTH = 80
+# A component of the unit vector of a link is rounding up to this size, so that it needs no row.
+_NO_COMPONENT = 16.0 * float(np.finfo(float).eps)
+
+Dof = tuple[int, int]
+"""A node and a direction: 1 to 3 along x, y, z, 4 to 6 about them, 0 of a scalar point."""
 
 
-class Deck(Owner):
+@dataclass(frozen=True)
+class DeckLink:
+    """A one-way link between two nodes; node 0 is the ground.
+
+    It opens by direction . (u_b - u_a): its gap is `gap` plus that, and its force, not negative, acts on node b along
+    `direction` and on node a against it. A strut has the direction from a to b, a cable that from b to a.
+    """
+
+    name: str
+    node_a: int
+    node_b: int
+    direction: tuple[float, float, float]
+    gap: float = 0.0
+    play: float = math.inf
+    compliance: float = 0.0
+    limit: float = math.inf
+    place: Place | None = None
+
+    def __str__(self) -> str:
+        return self.name if self.place is None else f"{self.place}, {self.name}"
+
+
+class Condition(NamedTuple):
+    """A force or a displacement, and where it is given."""
+
+    value: float
+    place: Place
+    step: int
+
+
+class Conditions(dict[Dof, Condition]):
+    """Forces or displacements of a load case; one of a later step takes the place of that of an earlier one."""
+
+    def add(self, dof: Dof, value: float, place: Place, step: int = 0) -> None:
+        """Add a force to those of the same step."""
+        before = self.get(dof)
+        if before is not None and before.step == step:
+            value += before.value
+        self[dof] = Condition(value, place, step)
+
+    def hold(self, dof: Dof, value: float, place: Place, step: int = 0) -> None:
+        """Prescribe a displacement; Reason if the same step prescribes another one."""
+        before = self.get(dof)
+        if before is not None and before.step == step and before.value != value:
+            raise Reason(
+                f"node {dof[0]} is displaced by {value:g} in direction {dof[1]}, but by {before.value:g} in "
+                f"{before.place}"
+            )
+        self[dof] = Condition(value, place, step)
+
+
+@dataclass
+class DeckCase:
+    """A load case: a subcase of Nastran, a step of Abaqus or CalculiX, a column of a table."""
+
+    name: str
+    loads: Conditions = field(default_factory=Conditions)
+    supports: Conditions = field(default_factory=Conditions)
+
+
+class Deck:
     """One-way links between nodes, and load cases with their supports.
 
     Made by :func:`read_deck`; ``Deck()`` is empty, for tables. The stiffness matrix must not have the links. A link
@@ -26,7 +93,7 @@ class Deck(Owner):
     Attributes
     ----------
     link_names, case_names : list of str
-        Card and number, such as CGAP 12, and such as SUBCASE 3.
+        Card and number, such as CGAP 12; name of a case, such as SUBCASE 3.
     node_a, node_b : ndarray of int, shape (links,)
         Numbers of the nodes in the file; 0: the ground.
     direction : ndarray, shape (links, 3)
@@ -34,37 +101,56 @@ class Deck(Owner):
     gap, play, compliance, limit : ndarray, shape (links,)
         Gap and distance of a second stop, length; of the link, length per force; of its force. Infinite play: no second
         stop; infinite limit: none.
+    paths : list of str
+        All files that have been read.
     """
 
-    def __init__(self, handle: Handle | None = None) -> None:
-        if handle is None:
-            handle = new_handle("deck", "fuge_deck_create", "fuge_deck_free")
-        self._handle = handle
-        self._take()
+    def __init__(self) -> None:
+        self._links: list[DeckLink] = []
+        self._cases: list[DeckCase] = []
+        # Supports of the model itself, as of all load cases that a table adds.
+        self._supports = Conditions()
+        self.paths: list[str] = []
 
-    def _take(self) -> None:
-        links, cases = self._counts("fuge_deck_get_counts")
-        self.node_a, self.node_b = np.empty(links, dtype=np.intc), np.empty(links, dtype=np.intc)
-        self.direction = np.empty((links, 3))
-        self.gap, self.play, self.compliance, self.limit = (np.empty(links) for _ in range(4))
-        laws = [self.gap, self.play, self.compliance, self.limit]
-        self._call("fuge_deck_get_links", self.node_a, self.node_b, self.direction, *laws)
-        self.link_names = [self._text("fuge_deck_get_link_name", k) for k in range(links)]
-        self.case_names = [self._text("fuge_deck_get_case_name", k) for k in range(cases)]
+    def __repr__(self) -> str:
+        cases = ", ".join(self.case_names[:3]) + (", .." if len(self._cases) > 3 else "")
+        return f"<Deck: {len(self._links)} links, {len(self._cases)} load cases{': ' * bool(cases)}{cases}>"
 
-    def read_links(self, path: PathLike) -> None:
-        """Add links: lines node_a, node_b, x, y, z, gap, play, stiffness, limit, name; blank from gap on for none."""
-        call("fuge_deck_read_links", self._handle.pointer, encoded(path))
-        self._take()
+    @property
+    def link_names(self) -> list[str]:
+        return [link.name for link in self._links]
 
-    def read_supports(self, path: PathLike) -> None:
-        """Add supports of the model and of all load cases: lines node, directions such as xyz or 123, displacement."""
-        call("fuge_deck_read_supports", self._handle.pointer, encoded(path))
+    @property
+    def case_names(self) -> list[str]:
+        return [case.name for case in self._cases]
 
-    def read_cases(self, path: PathLike) -> None:
-        """Add load cases: lines node.direction and a force for each; the first line may name them."""
-        call("fuge_deck_read_cases", self._handle.pointer, encoded(path))
-        self._take()
+    @property
+    def node_a(self) -> NDArray[np.intc]:
+        return np.array([link.node_a for link in self._links], dtype=np.intc)
+
+    @property
+    def node_b(self) -> NDArray[np.intc]:
+        return np.array([link.node_b for link in self._links], dtype=np.intc)
+
+    @property
+    def direction(self) -> NDArray[np.float64]:
+        return np.array([link.direction for link in self._links], dtype=float).reshape(-1, 3)
+
+    @property
+    def gap(self) -> NDArray[np.float64]:
+        return np.array([link.gap for link in self._links], dtype=float)
+
+    @property
+    def play(self) -> NDArray[np.float64]:
+        return np.array([link.play for link in self._links], dtype=float)
+
+    @property
+    def compliance(self) -> NDArray[np.float64]:
+        return np.array([link.compliance for link in self._links], dtype=float)
+
+    @property
+    def limit(self) -> NDArray[np.float64]:
+        return np.array([link.limit for link in self._links], dtype=float)
 
     def links(self, stiffness: StiffnessFile) -> Links:
         """The links with their laws and names, for :meth:`Body.set_links`; link k is ``link_names[k]``.
@@ -72,8 +158,9 @@ class Deck(Owner):
         Parameters
         ----------
         stiffness : StiffnessFile
-            The matrix of the structure without the links, whose rows have names. A row that it does not have must be
-            held in every load case.
+            The matrix of the structure without the links, whose rows have names. Programs leave out the rows of
+            supports: a row that it does not have must be held in every load case, or, if there is none, by the
+            supports of the model.
 
         Raises
         ------
@@ -81,14 +168,58 @@ class Deck(Owner):
             There is no link, rows have no names or the same name, no row moves a link, or a row is missing at a
             degree of freedom that is not held.
         """
-        rows = _rows(stiffness)
-        handle = new_handle("links", "fuge_deck_make_links", "fuge_links_free", self._handle.pointer, *rows)
-        return Links(handle, self.link_names)
+        if not self._links:
+            raise InputError("the deck has no one-way link", Status.ERR_SIZE)
+        rows = RowNames(stiffness)
+        links = Links()
+        for link in self._links:
+            dof_a = self._rows_of(link, link.node_a, rows)
+            dof_b = self._rows_of(link, link.node_b, rows)
+            if max(dof_a + dof_b) < 0:
+                raise InputError(f"{link}: no row of the matrix moves it", Status.ERR_DOF)
+            links.add_gap(
+                dof_a,
+                dof_b,
+                link.direction,
+                gap=link.gap,
+                play=link.play,
+                compliance=link.compliance,
+                limit=link.limit,
+                limit_upper=link.limit,
+                name=link.name,
+            )
+        return links
+
+    def _rows_of(self, link: DeckLink, node: int, rows: RowNames) -> list[int]:
+        """Rows of a node along the axes in which the link has a component; -1 where it does not move."""
+        found = []
+        for axis, component in enumerate(link.direction, 1):
+            row = rows.find(node, axis) if node and component != 0.0 else -1
+            if row < 0 and node and abs(component) > _NO_COMPONENT:
+                self._check_held(link, (node, axis))
+            found.append(row)
+        return found
+
+    def _check_held(self, link: DeckLink, dof: Dof) -> None:
+        """Refuse a degree of freedom without a row unless every load case holds it: the matrix is that of all."""
+        free = [f"{case.name} has no support" for case in self._cases if dof not in case.supports]
+        if not self._cases and dof not in self._supports:
+            free = ["no support is"]
+        if free:
+            reason = f"the matrix has no row of node {dof[0]}, direction {dof[1]}, but {free[0]} there"
+            raise InputError(f"{link}: {reason}", Status.ERR_DOF)
 
     def loads(self, stiffness: StiffnessFile) -> NDArray[np.float64]:
-        """External forces of the load cases, (cases, rows)."""
-        loads = np.empty((len(self.case_names), stiffness.node.size))
-        call("fuge_deck_get_loads", self._handle.pointer, *_rows(stiffness), loads)
+        """External forces of the load cases, (cases, rows). Forces at supports go into these, and have no effect."""
+        rows = RowNames(stiffness)
+        loads = np.zeros((len(self._cases), len(rows)))
+        for k, case in enumerate(self._cases):
+            for dof, load in case.loads.items():
+                row = rows.find(*dof)
+                if row >= 0:
+                    loads[k, row] = load.value
+                elif load.value != 0.0 and dof not in case.supports:
+                    raise _no_row(case, dof, load, "a force, but no support and")
         return loads
 
     def supports(self, case: int, stiffness: StiffnessFile) -> tuple[NDArray[np.intc], NDArray[np.float64]]:
@@ -96,34 +227,25 @@ class Deck(Owner):
 
         Cases that hold the same ones need one :meth:`Body.condense`, and `supports` of :meth:`Body.solve_cases`.
         """
-        count = np.empty(1, dtype=np.intc)
-        arguments = [self._handle.pointer, _arrays.integer("case", case), *_rows(stiffness)]
-        call("fuge_deck_get_supports", *arguments, 0, None, None, count)
-        dof = np.empty(int(count[0]), dtype=np.intc)
-        displacement = np.empty(dof.size)
-        call("fuge_deck_get_supports", *arguments, dof.size, dof, displacement, count)
-        return dof, displacement
-
-    def _text(self, getter: str, k: int) -> str:
-        text = ctypes.create_string_buffer(_NAME_LENGTH + 1)
-        self._call(getter, k, text, len(text))
-        return text.value.decode(errors="replace")
-
-    def _read_message(self, pointer: ctypes.c_void_p) -> str:
-        """None: a deck does not keep messages, and the exception has the general text of the status."""
-        return ""
+        number = _arrays.integer("case", case)
+        if not 0 <= number < len(self._cases):
+            raise InputError(f"load case {number} is outside 0 .. {len(self._cases) - 1}", Status.ERR_SIZE)
+        rows, chosen = RowNames(stiffness), self._cases[number]
+        held = list(_held_rows(chosen, rows))
+        dof = np.array([row for row, _ in held], dtype=np.intc)
+        return dof, np.array([displacement for _, displacement in held], dtype=float)
 
 
-def _rows(stiffness: StiffnessFile) -> list[object]:
-    return [stiffness.node.size, stiffness.node, stiffness.direction]
+def _held_rows(case: DeckCase, rows: RowNames) -> Iterator[tuple[int, float]]:
+    """Supports without a row are held in the matrix already, unless they are displaced."""
+    for dof, support in case.supports.items():
+        row = rows.find(*dof)
+        if row >= 0:
+            yield row, support.value
+        elif support.value != 0.0:
+            raise _no_row(case, dof, support, "a displacement, but")
 
 
-def read_deck(path: PathLike) -> Deck:
-    """Read one-way links and load cases from bulk data of Nastran, or an input file of Abaqus or CalculiX.
-
-    Raises
-    ------
-    FileError
-        The message has the file, the line, the card and the reason.
-    """
-    return Deck(new_handle("deck", "fuge_read_deck", "fuge_deck_free", encoded(path)))
+def _no_row(case: DeckCase, dof: Dof, condition: Condition, has: str) -> InputError:
+    reason = f"node {dof[0]}, direction {dof[1]} has {has} no row in the matrix"
+    return InputError(f"{condition.place}, {case.name}: {reason}", Status.ERR_DOF)

@@ -15,6 +15,7 @@ from fuge._instruments import REMARK, read_instrument
 from fuge._words import Words
 from fuge.columns import CompressedColumns, compressed
 from fuge.errors import FileError, Status
+from fuge.stiffness_rows import StiffnessFile
 
 PathLike = Union[str, "os.PathLike[str]"]
 StiffnessFormat = Literal["any", "matrix_market", "calculix", "abaqus", "dmig", "op4"]
@@ -107,22 +108,6 @@ def write_sparse(path: PathLike, matrix: Any, *, symmetric: bool = False) -> Non
         columns.value,
         int(bool(symmetric)),
     )
-
-
-@dataclass(frozen=True, eq=False)
-class StiffnessFile(CompressedColumns):
-    """A stiffness matrix, for :class:`Body`, and the names of its rows.
-
-    Attributes
-    ----------
-    shape, column, row, value
-        As in :class:`CompressedColumns`.
-    node, direction : ndarray of int, shape (rows,)
-        Node of each row and its direction, 1 to 3 along x, y, z, 4 to 6 about them; 0 where no name is known.
-    """
-
-    node: NDArray[np.intc]
-    direction: NDArray[np.intc]
 
 
 def read_stiffness(

@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._calls import Handle, Owner, call, new_handle
-from fuge.files import PathLike, StiffnessFile, encoded
+from fuge.files import PathLike, encoded
 from fuge.pairs import Surface
+from fuge.stiffness_rows import StiffnessFile
 
 # The longest name of a set.
 _NAME_LENGTH = 80
