@@ -21,7 +21,7 @@ contains
 
   !> Write a mesh and fields at its nodes or elements to a VTU file, which ParaView reads; an existing file is replaced.
   !>
-  !> `mesh`: from `fuge_read_mesh`, `fuge_make_mesh` or `fuge_join_meshes`, or filled by hand; needed are `position`,
+  !> `mesh`: from `fuge_make_mesh` or `fuge_join_meshes`, or filled by hand; needed are `position`,
   !> `element_type`, `first` and `connection`. Known are solids, elements of a plane, shells, membranes, rigid faces,
   !> trusses and beams of Abaqus and CalculiX. `fields`: none, or some of different names; a vector of two components
   !> gets a third one, 0. All values finite; they are written as doubles, to the last bit. The nodes are written where
