@@ -4,7 +4,7 @@ module fuge_c_stress_measures
   use fuge_c_arrays, only: find_array
   use fuge_c_types, only: report_to_c, require_count
   use fuge_status, only: fuge_info
-  use fuge_stress_measures, only: fuge_halfplane_tensor, fuge_mean_stress, fuge_principal_stresses, fuge_round_tensor, &
+  use fuge_stress_measures, only: fuge_mean_stress, fuge_principal_stresses, &
     fuge_tresca, fuge_von_mises
   implicit none
   private
@@ -13,36 +13,6 @@ module fuge_c_stress_measures
   integer, parameter :: VON_MISES = 1, TRESCA = 2, MEAN_STRESS = 3
 
 contains
-
-  function c_halfplane_tensor(points, stress, plane_state, poisson, tensor, message, length) &
-    bind(c, name='fuge_halfplane_tensor') result(status)
-    integer(c_int), intent(in), value :: points, plane_state
-    type(c_ptr), intent(in), value :: stress, tensor, message
-    real(c_double), intent(in), value :: poisson
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    real(c_double), pointer :: in_plane(:, :), tensors(:, :)
-    type(fuge_info) :: info
-
-    call find_components(3, points, stress, 'stress', in_plane, info)
-    call find_components(6, points, tensor, 'tensor', tensors, info)
-    if (.not. info%failed()) call fuge_halfplane_tensor(in_plane, int(plane_state), poisson, tensors, info)
-    status = report_to_c(info, message, length)
-  end function c_halfplane_tensor
-
-  function c_round_tensor(points, stress, tensor, message, length) bind(c, name='fuge_round_tensor') result(status)
-    integer(c_int), intent(in), value :: points
-    type(c_ptr), intent(in), value :: stress, tensor, message
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    real(c_double), pointer :: about_axis(:, :), tensors(:, :)
-    type(fuge_info) :: info
-
-    call find_components(4, points, stress, 'stress', about_axis, info)
-    call find_components(6, points, tensor, 'tensor', tensors, info)
-    if (.not. info%failed()) call fuge_round_tensor(about_axis, tensors, info)
-    status = report_to_c(info, message, length)
-  end function c_round_tensor
 
   function c_principal_stresses(points, tensor, principal, message, length) &
     bind(c, name='fuge_principal_stresses') result(status)

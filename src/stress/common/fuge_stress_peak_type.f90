@@ -1,4 +1,4 @@
-!> The largest stress under a contact, as the search reports it.
+!> The largest stresses under a contact: in the body, at the surface and at the interfaces of layers.
 module fuge_stress_peak_type
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
@@ -30,7 +30,26 @@ module fuge_stress_peak_type
     integer :: location = FUGE_PEAK_INSIDE
     !> The stresses there, xx, yy, zz, yz, xz, xy; about an axis x is the radius. NaN where they are singular.
     real(dp) :: tensor(6) = 0.0_dp
+    !> In a body of layers: 1 is the top one, the last number the substrate; layers that are bonded to the same material
+    !> are one with it. Below which cell of the grid. Otherwise 0.
+    integer :: layer = 0, cell = 0
   end type fuge_stress_peak
+
+  !> The largest stresses of the surface or of an interface, force per length squared, and the numbers of the cells
+  !> above them.
+  type, public :: fuge_interface_stress
+    !> Length.
+    real(dp) :: depth = 0.0_dp
+    !> The largest principal stress, tension positive, above the interface and below it; at the surface, and at a rigid
+    !> base, both are those in the layers.
+    real(dp) :: tension_above = 0.0_dp, tension_below = 0.0_dp
+    !> Below which cells they are.
+    integer :: cell_above = 0, cell_below = 0
+    !> The largest shear stress between both sides, and the largest stress that opens the interface, zz.
+    real(dp) :: shear = 0.0_dp, opening = 0.0_dp
+    !> Below which cells they are.
+    integer :: cell_of_shear = 0, cell_of_opening = 0
+  end type fuge_interface_stress
 
 contains
 

@@ -7,6 +7,7 @@ module fuge_interface_peaks
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
   use fuge_stress_measures, only: fuge_principal_stresses
+  use fuge_stress_peak_type, only: fuge_interface_stress
   implicit none
   private
 
@@ -14,22 +15,6 @@ module fuge_interface_peaks
 
   !> The two sides of an interface.
   logical, parameter :: BELOW(2) = [.false., .true.]
-
-  !> The largest stresses of the surface or of an interface, force per length squared, and the numbers of the cells
-  !> above them.
-  type, public :: fuge_interface_stress
-    !> Length.
-    real(dp) :: depth = 0.0_dp
-    !> The largest principal stress, tension positive, above the interface and below it; at the surface, and at a rigid
-    !> base, both are those in the layers.
-    real(dp) :: tension_above = 0.0_dp, tension_below = 0.0_dp
-    !> Below which cells they are.
-    integer :: cell_above = 0, cell_below = 0
-    !> The largest shear stress between both sides, and the largest stress that opens the interface, zz.
-    real(dp) :: shear = 0.0_dp, opening = 0.0_dp
-    !> Below which cells they are.
-    integer :: cell_of_shear = 0, cell_of_opening = 0
-  end type fuge_interface_stress
 
 contains
 
