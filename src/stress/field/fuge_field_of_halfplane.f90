@@ -1,13 +1,9 @@
 !> The field in a half-plane under cells of pressure.
 module fuge_field_of_halfplane
   use fuge_field_type, only: fuge_field
-  use fuge_halfplane_depths, only: fuge_halfplane_displacement_grid, fuge_halfplane_stress_grid
-  use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
   use fuge_halfplane_loads, only: halfplane_loads
-  use fuge_halfplane_peak_search, only: fuge_halfplane_peak
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, require_memory
-  use fuge_stress_measures, only: fuge_halfplane_tensor
   use fuge_stress_peak_type, only: fuge_stress_peak
   implicit none
   private
@@ -37,6 +33,7 @@ contains
   !> field unchanged: those of these two; FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. Ten
   !> arguments: the cells and the body.
   subroutine set_cells(self, x, width, force, element, young, poisson, plane_state, info, symmetric)
+    use fuge_halfplane_interior, only: fuge_halfplane_displacement
     class(fuge_halfplane_field), intent(inout) :: self
     real(dp), intent(in) :: x(:), width(:), force(:), young, poisson
     integer, intent(in) :: element, plane_state
@@ -58,6 +55,7 @@ contains
   !> `fuge_halfplane_operator`; the body as of `set_cells`. Errors as there, FUGE_ERR_OPTION for `boundary`,
   !> FUGE_ERR_UNSUPPORTED in a library without FFTW. Nine arguments: the grid and the body.
   subroutine set_grid(self, spacing, force, element, boundary, young, poisson, plane_state, info)
+    use fuge_halfplane_depths, only: fuge_halfplane_displacement_grid
     class(fuge_halfplane_field), intent(inout) :: self
     real(dp), intent(in) :: spacing, force(:), young, poisson
     integer, intent(in) :: element, boundary, plane_state
@@ -87,6 +85,8 @@ contains
   end subroutine take
 
   subroutine find_stress(self, place, below, values, info)
+    use fuge_halfplane_interior, only: fuge_halfplane_stress
+    use fuge_stress_measures, only: fuge_halfplane_tensor
     class(fuge_halfplane_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -104,6 +104,7 @@ contains
   end subroutine find_stress
 
   subroutine find_displacement(self, place, below, values, info)
+    use fuge_halfplane_interior, only: fuge_halfplane_displacement
     class(fuge_halfplane_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -124,6 +125,8 @@ contains
   end subroutine find_displacement
 
   subroutine find_grid_stress(self, depth, below, values, info)
+    use fuge_halfplane_depths, only: fuge_halfplane_stress_grid
+    use fuge_stress_measures, only: fuge_halfplane_tensor
     class(fuge_halfplane_field), intent(in) :: self
     real(dp), intent(in) :: depth(:)
     logical, intent(in) :: below(:)
@@ -144,6 +147,7 @@ contains
   end subroutine find_grid_stress
 
   subroutine find_grid_displacement(self, depth, below, values, info)
+    use fuge_halfplane_depths, only: fuge_halfplane_displacement_grid
     class(fuge_halfplane_field), intent(in) :: self
     real(dp), intent(in) :: depth(:)
     logical, intent(in) :: below(:)
@@ -164,6 +168,7 @@ contains
   end subroutine find_grid_displacement
 
   subroutine find_largest(self, measure, peak, info)
+    use fuge_halfplane_peak_search, only: fuge_halfplane_peak
     class(fuge_halfplane_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak

@@ -1,10 +1,7 @@
 !> The field in a half-space under rectangles of pressure.
 module fuge_field_of_halfspace
   use fuge_field_type, only: fuge_field
-  use fuge_halfspace_depths, only: fuge_halfspace_displacement_grid, fuge_halfspace_stress_grid
-  use fuge_halfspace_interior, only: fuge_halfspace_displacement, fuge_halfspace_stress
   use fuge_halfspace_loads, only: halfspace_loads
-  use fuge_halfspace_peak_search, only: fuge_halfspace_peak
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, FUGE_ERR_UNSUPPORTED
   use fuge_stress_peak_type, only: fuge_stress_peak
@@ -35,6 +32,7 @@ contains
   !> body. Errors, the field unchanged: those of `fuge_halfspace_matrix`, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE,
   !> FUGE_ERR_MODULUS, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. Eleven arguments: the rectangles and the body.
   subroutine set_rectangles(self, x, y, width_x, width_y, force, young, poisson, info, symmetric_x, symmetric_y)
+    use fuge_halfspace_interior, only: fuge_halfspace_displacement
     class(fuge_halfspace_field), intent(inout) :: self
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:), young, poisson
     type(fuge_info), intent(out) :: info
@@ -55,6 +53,7 @@ contains
   !> body as of `set_rectangles`. Errors as there, FUGE_ERR_OPTION for `boundary`, FUGE_ERR_UNSUPPORTED in a library
   !> without FFTW. Ten arguments: the grid and the body.
   subroutine set_grid(self, nx, ny, spacing_x, spacing_y, force, boundary, young, poisson, info)
+    use fuge_halfspace_depths, only: fuge_halfspace_displacement_grid
     class(fuge_halfspace_field), intent(inout) :: self
     integer, intent(in) :: nx, ny, boundary
     real(dp), intent(in) :: spacing_x, spacing_y, force(:), young, poisson
@@ -82,6 +81,7 @@ contains
   end subroutine take
 
   subroutine find_stress(self, place, below, values, info)
+    use fuge_halfspace_interior, only: fuge_halfspace_stress
     class(fuge_halfspace_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -95,6 +95,7 @@ contains
   end subroutine find_stress
 
   subroutine find_displacement(self, place, below, values, info)
+    use fuge_halfspace_interior, only: fuge_halfspace_displacement
     class(fuge_halfspace_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -108,6 +109,7 @@ contains
   end subroutine find_displacement
 
   subroutine find_grid_stress(self, depth, below, values, info)
+    use fuge_halfspace_depths, only: fuge_halfspace_stress_grid
     class(fuge_halfspace_field), intent(in) :: self
     real(dp), intent(in) :: depth(:)
     logical, intent(in) :: below(:)
@@ -122,6 +124,7 @@ contains
   end subroutine find_grid_stress
 
   subroutine find_grid_displacement(self, depth, below, values, info)
+    use fuge_halfspace_depths, only: fuge_halfspace_displacement_grid
     class(fuge_halfspace_field), intent(in) :: self
     real(dp), intent(in) :: depth(:)
     logical, intent(in) :: below(:)
@@ -137,6 +140,7 @@ contains
   end subroutine find_grid_displacement
 
   subroutine find_largest(self, measure, peak, info)
+    use fuge_halfspace_peak_search, only: fuge_halfspace_peak
     class(fuge_halfspace_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak

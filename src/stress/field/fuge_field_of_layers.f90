@@ -4,20 +4,9 @@ module fuge_field_of_layers
   use fuge_field_type, only: fuge_field
   use fuge_halfplane_loads, only: halfplane_loads
   use fuge_halfspace_loads, only: halfspace_loads
-  use fuge_interface_peaks, only: fuge_layered_halfplane_interfaces, fuge_layered_halfspace_interfaces
   use fuge_kinds, only: dp
-  use fuge_layer_checks, only: find_layers
-  use fuge_layer_stack, only: layer_stack
   use fuge_layered_body_type, only: copy_layers, fuge_layered_body
-  use fuge_layered_halfplane_depths, only: fuge_layered_halfplane_displacement_grid, &
-    fuge_layered_halfplane_stress_grid
-  use fuge_layered_halfplane_interior, only: fuge_layered_halfplane_displacement, fuge_layered_halfplane_stress
-  use fuge_layered_halfspace_depths, only: fuge_layered_halfspace_displacement_grid, &
-    fuge_layered_halfspace_stress_grid
-  use fuge_layered_halfspace_interior, only: fuge_layered_halfspace_displacement, fuge_layered_halfspace_stress
-  use fuge_layered_peak_search, only: fuge_layer_peak, fuge_layered_halfplane_peak, fuge_layered_halfspace_peak
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_UNSUPPORTED
-  use fuge_stress_measures, only: fuge_halfplane_tensor
   use fuge_stress_peak_type, only: fuge_interface_stress, fuge_stress_peak, FUGE_PEAK_INSIDE, FUGE_PEAK_SURFACE
   implicit none
   private
@@ -62,6 +51,7 @@ contains
   !> field unchanged: those of `fuge_layered_halfplane_matrix`, FUGE_ERR_CALL_ORDER for a body that is not set,
   !> FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_MEMORY.
   subroutine set_cells(self, body, x, width, force, element, info, symmetric)
+    use fuge_layered_halfplane_interior, only: fuge_layered_halfplane_displacement
     class(fuge_layered_line_field), intent(inout) :: self
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: x(:), width(:), force(:)
@@ -83,6 +73,7 @@ contains
   !> `spacing`, `force`, `boundary` as of `fuge_halfplane_field`; all else as of `set_cells`. Errors as there,
   !> FUGE_ERR_OPTION for `boundary`, FUGE_ERR_UNSUPPORTED in a library without FFTW.
   subroutine set_line(self, body, spacing, force, element, boundary, info)
+    use fuge_layered_halfplane_depths, only: fuge_layered_halfplane_displacement_grid
     class(fuge_layered_line_field), intent(inout) :: self
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: spacing, force(:)
@@ -111,6 +102,8 @@ contains
 
   !> Poisson's ratio of the layer at each depth.
   subroutine find_ratios(body, depth, below, ratio, info)
+    use fuge_layer_checks, only: find_layers
+    use fuge_layer_stack, only: layer_stack
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: depth(:)
     logical, intent(in) :: below(:)
@@ -126,6 +119,8 @@ contains
   end subroutine find_ratios
 
   subroutine line_stress(self, place, below, values, info)
+    use fuge_layered_halfplane_interior, only: fuge_layered_halfplane_stress
+    use fuge_stress_measures, only: fuge_halfplane_tensor
     class(fuge_layered_line_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -148,6 +143,7 @@ contains
   end subroutine line_stress
 
   subroutine line_displacement(self, place, below, values, info)
+    use fuge_layered_halfplane_interior, only: fuge_layered_halfplane_displacement
     class(fuge_layered_line_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -168,6 +164,8 @@ contains
   end subroutine line_displacement
 
   subroutine line_grid_stress(self, depth, below, values, info)
+    use fuge_layered_halfplane_depths, only: fuge_layered_halfplane_stress_grid
+    use fuge_stress_measures, only: fuge_halfplane_tensor
     class(fuge_layered_line_field), intent(in) :: self
     real(dp), intent(in) :: depth(:)
     logical, intent(in) :: below(:)
@@ -189,6 +187,7 @@ contains
   end subroutine line_grid_stress
 
   subroutine line_grid_displacement(self, depth, below, values, info)
+    use fuge_layered_halfplane_depths, only: fuge_layered_halfplane_displacement_grid
     class(fuge_layered_line_field), intent(in) :: self
     real(dp), intent(in) :: depth(:)
     logical, intent(in) :: below(:)
@@ -208,6 +207,7 @@ contains
   end subroutine line_grid_displacement
 
   subroutine line_largest(self, measure, peak, info)
+    use fuge_layered_peak_search, only: fuge_layer_peak, fuge_layered_halfplane_peak
     class(fuge_layered_line_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
@@ -222,6 +222,7 @@ contains
   end subroutine line_largest
 
   subroutine line_interfaces(self, peaks, info)
+    use fuge_interface_peaks, only: fuge_layered_halfplane_interfaces
     class(fuge_layered_line_field), intent(in) :: self
     type(fuge_interface_stress), allocatable, intent(inout) :: peaks(:)
     type(fuge_info), intent(out) :: info
@@ -234,8 +235,10 @@ contains
     if (.not. info%failed()) call move_alloc(found, peaks)
   end subroutine line_interfaces
 
-  !> Rectangles on a body of layers; all else as of `fuge_layered_line_field` and `fuge_halfspace_field`.
+  !> Rectangles on a body of layers; all else as of `fuge_layered_line_field` and `fuge_halfspace_field`. Ten arguments:
+  !> the layers and the rectangles.
   subroutine set_rectangles(self, body, x, y, width_x, width_y, force, info, symmetric_x, symmetric_y)
+    use fuge_layered_halfspace_interior, only: fuge_layered_halfspace_displacement
     class(fuge_layered_area_field), intent(inout) :: self
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:)
@@ -251,9 +254,11 @@ contains
     if (.not. info%failed()) call take_area(self, body, loads)
   end subroutine set_rectangles
 
-  !> `nx` x `ny` equal cells side by side, the first one at x = y = 0, on a body of layers; all else as of
+  !> `nx` x `ny` equal cells side by side, the first one at x = y = 0, on a body of layers. Nine arguments: the layers and
+  !> the grid. All else as of
   !> `fuge_layered_line_field` and `fuge_halfspace_field`.
   subroutine set_area(self, body, nx, ny, spacing_x, spacing_y, force, boundary, info)
+    use fuge_layered_halfspace_depths, only: fuge_layered_halfspace_displacement_grid
     class(fuge_layered_area_field), intent(inout) :: self
     type(fuge_layered_body), intent(in) :: body
     integer, intent(in) :: nx, ny, boundary
@@ -281,6 +286,7 @@ contains
   end subroutine take_area
 
   subroutine area_stress(self, place, below, values, info)
+    use fuge_layered_halfspace_interior, only: fuge_layered_halfspace_stress
     class(fuge_layered_area_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -293,6 +299,7 @@ contains
   end subroutine area_stress
 
   subroutine area_displacement(self, place, below, values, info)
+    use fuge_layered_halfspace_interior, only: fuge_layered_halfspace_displacement
     class(fuge_layered_area_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -306,6 +313,7 @@ contains
   end subroutine area_displacement
 
   subroutine area_grid_stress(self, depth, below, values, info)
+    use fuge_layered_halfspace_depths, only: fuge_layered_halfspace_stress_grid
     class(fuge_layered_area_field), intent(in) :: self
     real(dp), intent(in) :: depth(:)
     logical, intent(in) :: below(:)
@@ -319,6 +327,7 @@ contains
   end subroutine area_grid_stress
 
   subroutine area_grid_displacement(self, depth, below, values, info)
+    use fuge_layered_halfspace_depths, only: fuge_layered_halfspace_displacement_grid
     class(fuge_layered_area_field), intent(in) :: self
     real(dp), intent(in) :: depth(:)
     logical, intent(in) :: below(:)
@@ -333,6 +342,7 @@ contains
   end subroutine area_grid_displacement
 
   subroutine area_largest(self, measure, peak, info)
+    use fuge_layered_peak_search, only: fuge_layer_peak, fuge_layered_halfspace_peak
     class(fuge_layered_area_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
@@ -349,6 +359,7 @@ contains
   end subroutine area_largest
 
   subroutine area_interfaces(self, peaks, info)
+    use fuge_interface_peaks, only: fuge_layered_halfspace_interfaces
     class(fuge_layered_area_field), intent(in) :: self
     type(fuge_interface_stress), allocatable, intent(inout) :: peaks(:)
     type(fuge_info), intent(out) :: info
@@ -387,6 +398,7 @@ contains
 
   !> The largest stress below a cell at `x`, `y`.
   pure function peak_below(centre, found) result(peak)
+    use fuge_layered_peak_search, only: fuge_layer_peak
     real(dp), intent(in) :: centre(2)
     type(fuge_layer_peak), intent(in) :: found
     type(fuge_stress_peak) :: peak

@@ -1,15 +1,10 @@
 !> The fields under smooth and round punches, to rounding.
 module fuge_field_of_punches
   use fuge_field_type, only: fuge_field
-  use fuge_halfplane_peak_search, only: fuge_smooth_peak
   use fuge_kinds, only: dp
   use fuge_round_contact_type, only: fuge_round_contact
-  use fuge_round_interior, only: fuge_round_displacement, fuge_round_stress
-  use fuge_round_peak_search, only: fuge_round_peak
   use fuge_smooth_contact_type, only: fuge_smooth_contact
-  use fuge_smooth_interior, only: fuge_smooth_displacement, fuge_smooth_stress
   use fuge_status, only: fuge_info, require_memory
-  use fuge_stress_measures, only: fuge_halfplane_tensor, fuge_round_tensor
   use fuge_stress_peak_type, only: fuge_stress_peak
   implicit none
   private
@@ -45,6 +40,7 @@ contains
   !>
   !> Errors, the field unchanged: FUGE_ERR_MODULUS, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW.
   subroutine set_smooth(self, contact, young, poisson, plane_state, info)
+    use fuge_smooth_interior, only: fuge_smooth_displacement
     class(fuge_smooth_punch_field), intent(inout) :: self
     type(fuge_smooth_contact), intent(in) :: contact
     real(dp), intent(in) :: young, poisson
@@ -63,6 +59,8 @@ contains
   end subroutine set_smooth
 
   subroutine smooth_stress(self, place, below, values, info)
+    use fuge_smooth_interior, only: fuge_smooth_stress
+    use fuge_stress_measures, only: fuge_halfplane_tensor
     class(fuge_smooth_punch_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -76,6 +74,7 @@ contains
   end subroutine smooth_stress
 
   subroutine smooth_displacement(self, place, below, values, info)
+    use fuge_smooth_interior, only: fuge_smooth_displacement
     class(fuge_smooth_punch_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -92,6 +91,7 @@ contains
   end subroutine smooth_displacement
 
   subroutine smooth_largest(self, measure, peak, info)
+    use fuge_halfplane_peak_search, only: fuge_smooth_peak
     class(fuge_smooth_punch_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
@@ -105,6 +105,7 @@ contains
   !>
   !> Errors, the field unchanged: FUGE_ERR_MODULUS, FUGE_ERR_OVERFLOW.
   subroutine set_round(self, contact, young, poisson, info)
+    use fuge_round_interior, only: fuge_round_displacement
     class(fuge_round_punch_field), intent(inout) :: self
     type(fuge_round_contact), intent(in) :: contact
     real(dp), intent(in) :: young, poisson
@@ -120,6 +121,8 @@ contains
   end subroutine set_round
 
   subroutine round_stress(self, place, below, values, info)
+    use fuge_round_interior, only: fuge_round_stress
+    use fuge_stress_measures, only: fuge_round_tensor
     class(fuge_round_punch_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -133,6 +136,7 @@ contains
   end subroutine round_stress
 
   subroutine round_displacement(self, place, below, values, info)
+    use fuge_round_interior, only: fuge_round_displacement
     class(fuge_round_punch_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -149,6 +153,7 @@ contains
   end subroutine round_displacement
 
   subroutine round_largest(self, measure, peak, info)
+    use fuge_round_peak_search, only: fuge_round_peak
     class(fuge_round_punch_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak

@@ -2,10 +2,7 @@
 module fuge_field_of_rings
   use fuge_field_type, only: fuge_field
   use fuge_kinds, only: dp
-  use fuge_ring_interior, only: fuge_ring_interior_displacement, fuge_ring_stress
-  use fuge_round_peak_search, only: fuge_ring_peak
   use fuge_status, only: fuge_info, require_memory
-  use fuge_stress_measures, only: fuge_round_tensor
   use fuge_stress_peak_type, only: fuge_stress_peak
   implicit none
   private
@@ -30,6 +27,7 @@ contains
   !> Errors, the field unchanged: those of `fuge_ring_matrix`, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_MODULUS,
   !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
   subroutine set(self, radius, force, young, poisson, info)
+    use fuge_ring_interior, only: fuge_ring_interior_displacement
     class(fuge_rings_field), intent(inout) :: self
     real(dp), intent(in) :: radius(:), force(:), young, poisson
     type(fuge_info), intent(out) :: info
@@ -53,6 +51,8 @@ contains
   end subroutine set
 
   subroutine find_stress(self, place, below, values, info)
+    use fuge_ring_interior, only: fuge_ring_stress
+    use fuge_stress_measures, only: fuge_round_tensor
     class(fuge_rings_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -69,6 +69,7 @@ contains
   end subroutine find_stress
 
   subroutine find_displacement(self, place, below, values, info)
+    use fuge_ring_interior, only: fuge_ring_interior_displacement
     class(fuge_rings_field), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
     logical, intent(in) :: below(:)
@@ -88,6 +89,7 @@ contains
   end subroutine find_displacement
 
   subroutine find_largest(self, measure, peak, info)
+    use fuge_round_peak_search, only: fuge_ring_peak
     class(fuge_rings_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak

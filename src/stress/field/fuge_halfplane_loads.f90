@@ -1,6 +1,5 @@
 !> The forces of a contact on the surface of a half-plane, as a field keeps them.
 module fuge_halfplane_loads
-  use fuge_halfplane_fft, only: FUGE_FREE
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, require_memory
   implicit none
@@ -9,7 +8,7 @@ module fuge_halfplane_loads
   !> Cells, or the cells of a grid, of which the first one lies at x = 0.
   type, public :: halfplane_loads
     real(dp), allocatable :: x(:), width(:), force(:)
-    integer :: element = 0, boundary = FUGE_FREE
+    integer :: element = 0, boundary = 0
     logical :: symmetric = .false., is_grid = .false.
   contains
     procedure :: set_cells
@@ -79,6 +78,7 @@ contains
 
   !> Is the field known at any place, and not only below the cells of a grid?
   pure function has_places(self)
+    use fuge_halfplane_fft, only: FUGE_FREE
     class(halfplane_loads), intent(in) :: self
     logical :: has_places
 

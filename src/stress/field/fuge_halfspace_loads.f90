@@ -1,6 +1,5 @@
 !> The forces of a contact on the surface of a half-space, as a field keeps them.
 module fuge_halfspace_loads
-  use fuge_halfplane_fft, only: FUGE_FREE
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
   implicit none
@@ -9,7 +8,7 @@ module fuge_halfspace_loads
   !> Rectangles, or the cells of a grid, of which the first one lies at x = y = 0.
   type, public :: halfspace_loads
     real(dp), allocatable :: x(:), y(:), width_x(:), width_y(:), force(:)
-    integer :: sides(2) = 0, boundary = FUGE_FREE
+    integer :: sides(2) = 0, boundary = 0
     logical :: symmetric(2) = .false., is_grid = .false.
   contains
     procedure :: set_rectangles
@@ -21,7 +20,7 @@ module fuge_halfspace_loads
 
 contains
 
-  !> Keep rectangles; FUGE_ERR_MEMORY.
+  !> Keep rectangles; FUGE_ERR_MEMORY. Nine arguments: the rectangles.
   subroutine set_rectangles(self, x, y, width_x, width_y, force, info, symmetric_x, symmetric_y)
     class(halfspace_loads), intent(out) :: self
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:), force(:)
@@ -86,6 +85,7 @@ contains
 
   !> Is the field known at any place, and not only below the cells of a grid?
   pure function has_places(self)
+    use fuge_halfplane_fft, only: FUGE_FREE
     class(halfspace_loads), intent(in) :: self
     logical :: has_places
 
