@@ -35,6 +35,7 @@ Solving: gaps and a load, a prescribed approach, or several rigid motions
     load_path(alpha, gap, load)             all loads at which a point changes its PointState: a Path
     contact_edges(x, width, force, element) edges finer than the grid: ContactEdges, each of an EdgeKind
     hertz_ellipse                           Hertz in closed form: HertzContact
+    solve_lcp(M, q), solve_qp(P, q, G, h, A, b)   problems without a contact: LcpSolution, QpSolution
     solve_smooth_punch                      one interval under a smooth profile, without a grid: SmoothContact
     solve_round_punch, solve_round_powers   the same for punches of revolution: RoundContact
 
@@ -196,6 +197,12 @@ from fuge.operators import (
 )
 from fuge.pairs import ContactPairs as ContactPairs, Surface as Surface
 from fuge.path import Path as Path, PointState as PointState, load_path as load_path
+from fuge.programs import (
+    LcpSolution as LcpSolution,
+    QpSolution as QpSolution,
+    solve_lcp as solve_lcp,
+    solve_qp as solve_qp,
+)
 from fuge.proof import Proof as Proof
 from fuge.smooth import (
     RoundContact as RoundContact,
