@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import weakref
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,8 +14,20 @@ from fuge.design import Gradients
 from fuge.errors import Status, error
 from fuge.proof import Proof
 
-if TYPE_CHECKING:
-    from fuge.solver import Solver
+
+class _Solves(Protocol):
+    """The solver of a solution."""
+
+    def _prove(self, contact: Contact | None) -> Proof: ...
+
+    def _vjp(
+        self,
+        contact: Contact | None,
+        force: ArrayLike | None,
+        gap: ArrayLike | None,
+        motion: ArrayLike | None,
+        pressure: ArrayLike | None,
+    ) -> Gradients: ...
 
 
 @dataclass(frozen=True)
@@ -87,7 +99,7 @@ class Contact:
     message: str
     cells: Cells | None = None
     proof: Proof | None = None
-    _solver: weakref.ref[Solver] | None = field(default=None, repr=False)
+    _solver: weakref.ref[_Solves] | None = field(default=None, repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_solver": None}
@@ -128,7 +140,7 @@ class Contact:
         """
         return self._last_solver()._vjp(self, force, gap, motion, pressure)
 
-    def _last_solver(self) -> Solver:
+    def _last_solver(self) -> _Solves:
         """The solver whose solution this is; whether the last one, it says itself."""
         solver = None if self._solver is None else self._solver()
         if solver is None:
@@ -194,6 +206,9 @@ class Derivative:
     gap: NDArray[np.float64]
     motion: NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        return f"<Derivative: {self.force.size} points, motion {self.motion}>"
+
 
 def no_solver() -> Exception:
     """The error of a solution that is not the last one of a solver that is still there."""
@@ -218,6 +233,9 @@ class History:
 
     basis: NDArray[np.intc]
     z: NDArray[np.float64]
+
+    def __repr__(self) -> str:
+        return f"<History: {self.z.size} steps>"
 
 
 def info_of(report: Any) -> Info:

@@ -1,0 +1,89 @@
+"""Motions of a structure that nothing holds, and their words."""
+
+from __future__ import annotations
+
+from typing import Any, Callable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+Doubles = NDArray[np.float64]
+
+# Below this a displacement is rounding, relative to the largest one.
+_NOTHING = 1e-8
+
+
+def null_space(rows: Doubles, scale: float = 1.0) -> Doubles:
+    """Orthonormal columns that rows take to zero, but for rounding of numbers of this scale."""
+    _, values, right = np.linalg.svd(rows)
+    return np.asarray(right[np.count_nonzero(values > _NOTHING * scale) :].T)
+
+
+def modes_of(probe: Any) -> Doubles:
+    """All rigid modes and mechanisms of a body, (degrees, modes), the largest displacement of each of size 1.
+
+    Random combinations of all displacements, as contact points, leave out no mode.
+    """
+    probe.find_rigid_modes()
+    points = 8
+    while True:
+        normal = np.random.default_rng(0).standard_normal((points, probe.degrees))
+        probe.set_contact(np.tile(np.arange(probe.degrees, dtype=np.intc), (points, 1)), normal)
+        count = probe.condense().modes.shape[1]
+        if count < points:
+            break
+        points *= 2
+    modes = [probe.recover(np.zeros(points), motion) for motion in np.eye(count)]
+    return np.reshape([mode / np.abs(mode).max() for mode in modes], (count, probe.degrees)).T
+
+
+def free_motions(
+    motions: Doubles, position: Doubles, dof: NDArray[np.intc], words: Callable[[int], str]
+) -> dict[str, Doubles]:
+    """Motions that nothing holds by their sentences, for each axis and each mechanism; `words` are those of a dof."""
+    if motions.shape[1] == 0:
+        return {}
+    dimensions = position.shape[1]
+    moved = np.where((dof >= 0)[..., None], motions[dof], 0.0).reshape(-1, motions.shape[1])
+    basis = _rigid_motions(position)
+    share = np.linalg.lstsq(basis, moved, rcond=None)[0]
+    rigid = null_space(moved - basis @ share)
+    share = share @ rigid
+    shift, turn = share[:dimensions], share[dimensions:]
+    still = null_space(turn)
+    found = {
+        f"nothing holds the structure along {axis}: it slides": rigid @ still @ part
+        for axis, part in _directions(shift @ still, "xyz")
+    }
+    for axis, part in _directions(turn, "z" if dimensions == 2 else "xyz"):
+        found[f"nothing keeps the structure from turning about {axis}"] = rigid @ part
+    # Neither motions of the whole structure, nor seen at its nodes.
+    for part in np.hstack([null_space(rigid.T), rigid @ null_space(share)]).T:
+        most = words(int(np.abs(motions @ part).argmax()))
+        found[f"nothing holds a mechanism that moves {most} most"] = part
+    return {sentence: motions @ part / np.abs(motions @ part).max() for sentence, part in found.items()}
+
+
+def _rigid_motions(position: Doubles) -> Doubles:
+    """Translations along the axes and rotations about axes through the centre, as columns."""
+    nodes, dimensions = position.shape
+    place = np.zeros((nodes, 3))
+    place[:, :dimensions] = position - position.mean(axis=0)
+    place /= np.abs(place).max(initial=0.0) or 1.0
+    axes = np.eye(3)[:, None, :]
+    motions = np.concatenate([np.broadcast_to(axes, (3, nodes, 3)), np.cross(axes, place[None])])
+    kept = motions[[0, 1, 5], :, :2] if dimensions == 2 else motions
+    return np.asarray(kept.reshape(len(kept), -1).T)
+
+
+def _directions(columns: Doubles, axes: str) -> Iterator[tuple[str, Doubles]]:
+    """Axes in the space of the columns, vectors for what else is in it, and the columns' weights."""
+    left, values, _ = np.linalg.svd(columns, full_matrices=False)
+    space = left[:, values > _NOTHING]
+    inside = np.linalg.norm(space @ space.T - np.eye(len(columns)), axis=0) < 1e-6
+    named = [(axes[k], np.eye(len(columns))[k]) for k in np.flatnonzero(inside)]
+    skew = (space @ null_space(space[inside])).T
+    named += [("(" + ", ".join(f"{value:.2g}" for value in vector) + ")", vector) for vector in skew]
+    combine = np.linalg.pinv(columns, rcond=_NOTHING)
+    for axis, vector in named:
+        yield axis, combine @ vector
