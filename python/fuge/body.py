@@ -282,7 +282,7 @@ class Body(Owner):
         p = np.zeros(self.degrees) if self._load is None else self._load
         if load is not None:
             p = _arrays.doubles("load", load, u.shape, (self.degrees,))
-        self._check_dof("fixed", self._fixed)
+        self._check_dof("fixed", self._fixed, 0)
         held, contact = stiffness_rows(self._matrix, self._fixed), self._openings()[:, self._fixed]
         return np.asarray((held @ u.T).T - (contact.T @ f.T).T - p[..., self._fixed])
 
@@ -403,7 +403,7 @@ class Body(Owner):
             modes = modes_of(probe)
         openings = self._openings()
         free = modes @ null_space(openings @ modes, np.abs(self._normal).max(initial=0.0))
-        return free_motions(free, places, degrees, self._names.words)
+        return free_motions(free, places, degrees, self._names.most)
 
     def _pose(self) -> tuple[Solver, Links]:
         """A solver with the problem of the links, kept until the body is condensed again."""
@@ -427,9 +427,10 @@ class Body(Owner):
         self._check_dof("dof", self._dof)
         return opening_rows(self._dof, self._normal, self.degrees)
 
-    def _check_dof(self, name: str, dof: NDArray[np.intc]) -> None:
-        if dof.max(initial=-1) >= self.degrees or dof.min(initial=0) < -1:
-            raise error(Status.ERR_DOF, f"{name} has {dof.max()}, but there are {self.degrees} degrees of freedom")
+    def _check_dof(self, name: str, dof: NDArray[np.intc], least: int = -1) -> None:
+        wrong = dof[(dof < least) | (dof >= self.degrees)]
+        if wrong.size > 0:
+            raise error(Status.ERR_DOF, f"{name} has {wrong[0]}, but there are {self.degrees} degrees of freedom")
 
     def _named(self, message: str) -> str:
         """The message with names of links and degrees of freedom."""

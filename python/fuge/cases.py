@@ -20,9 +20,7 @@ from fuge.tables import Table
 
 TableKind = Literal["links", "reactions"]
 
-_FAILED = -1
 _STATES = {
-    _FAILED: "failed",
     PointState.OPEN: "open",
     PointState.AT_LOWER_STOP: "contact",
     PointState.AT_UPPER_STOP: "upper",
@@ -108,8 +106,8 @@ class Cases:
             **{name: value.reshape(-1) for name, value in values.items()},
         }
         if kind == "links":
-            state = np.where(self.status[:, None] < 0, _FAILED, self.state.reshape(len(self), -1))
-            columns["state"] = np.array([_STATES[k] for k in state.reshape(-1).tolist()], dtype=object)
+            states = np.array([_STATES[k] for k in self.state.reshape(-1).tolist()], dtype=object)
+            columns["state"] = np.where(np.repeat(self.status < 0, len(names)), "failed", states)
             for name in ("force_bound", "gap_bound") if self.proof else ():
                 unknown = np.full(len(names), np.nan)
                 bounds = [unknown if proof is None else getattr(proof, name).reshape(-1) for proof in self.proof]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import weakref
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,21 +13,6 @@ from fuge.cells import Cells, pressure_of
 from fuge.design import Gradients
 from fuge.errors import Status, error
 from fuge.proof import Proof
-
-
-class _Solves(Protocol):
-    """The solver of a solution."""
-
-    def _prove(self, contact: Contact | None) -> Proof: ...
-
-    def _vjp(
-        self,
-        contact: Contact | None,
-        force: ArrayLike | None,
-        gap: ArrayLike | None,
-        motion: ArrayLike | None,
-        pressure: ArrayLike | None,
-    ) -> Gradients: ...
 
 
 @dataclass(frozen=True)
@@ -99,7 +84,7 @@ class Contact:
     message: str
     cells: Cells | None = None
     proof: Proof | None = None
-    _solver: weakref.ref[_Solves] | None = field(default=None, repr=False)
+    _solver: weakref.ref[Any] | None = field(default=None, repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_solver": None}
@@ -114,7 +99,8 @@ class Contact:
         CallOrderError
             The solver has gone, or has solved another problem since.
         """
-        return self._last_solver()._prove(self) if self.proof is None else self.proof
+        proof: Proof = self._last_solver()._prove(self) if self.proof is None else self.proof
+        return proof
 
     def vjp(
         self,
@@ -138,9 +124,10 @@ class Contact:
         CallOrderError
             The solver has gone, or has solved another problem since.
         """
-        return self._last_solver()._vjp(self, force, gap, motion, pressure)
+        gradients: Gradients = self._last_solver()._vjp(self, force, gap, motion, pressure)
+        return gradients
 
-    def _last_solver(self) -> _Solves:
+    def _last_solver(self) -> Any:
         """The solver whose solution this is; whether the last one, it says itself."""
         solver = None if self._solver is None else self._solver()
         if solver is None:

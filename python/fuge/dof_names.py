@@ -5,6 +5,9 @@ from __future__ import annotations
 import re
 from typing import Any, Callable, Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fuge.stiffness_rows import StiffnessFile
 
 _NUMBERED = re.compile(r"\b(contact point|point|degree of freedom|motion) (\d+)\b")
@@ -25,6 +28,11 @@ class DofNames:
         """The degree of freedom in a sentence."""
         place = self._place(dof)
         return f"degree of freedom {dof}" + ("" if place is None else " (node {}, direction {})".format(*place))
+
+    def most(self, displacement: NDArray[np.float64]) -> str:
+        """The degree of freedom that moves most, the first one of several."""
+        size = np.abs(displacement)
+        return self.words(int(np.argmax(size > (1.0 - 1e-6) * size.max())))
 
     def in_message(self, message: str, links: Sequence[str] = (), motion: Callable[[int], str] | None = None) -> str:
         """The message with names of links in place of numbers of points; `motion` tells what a motion is."""

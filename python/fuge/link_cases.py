@@ -44,15 +44,14 @@ def solve_link_cases(
     found = solver._solve_cases(displacement + links.gap, resultant if resultant.size else None, called, prove)
     found = replace(found, links=links.names, supports=tuple(body._names[int(dof)] for dof in body._fixed))
     for k in np.flatnonzero(found.status):
-        if refused[k] < 0:
-            reason = body._named(reasons[k])
-            found = reported(found, int(k), Status(int(refused[k])), reason)
-        elif found.status[k] == Status.ERR_NO_EQUILIBRIUM:
-            found = reported(found, int(k), Status.ERR_NO_EQUILIBRIUM, _collapse(body, forces[k]))
+        status = int(refused[k] or found.status[k])
+        if refused[k]:
+            told = body._named(reasons[k])
+        elif status == Status.ERR_NO_EQUILIBRIUM:
+            told = _collapse(body, forces[k])
         else:
-            status, told = Status(int(found.status[k])), found.message[k]
-            told = body._names.in_message(told, links.names, lambda mode: _motion(body, mode))
-            found = reported(found, int(k), status, told)
+            told = body._names.in_message(found.message[k], links.names, lambda mode: _motion(body, mode))
+        found = reported(found, int(k), Status(status), told)
     balanced = _recovered(body, forces, moved, found)
     warn_of_cases(found)
     return balanced
@@ -67,7 +66,9 @@ def _recovered(body: Body, forces: Doubles, moved: Doubles | None, found: Cases)
         message = in_python(body._read_message(pointer), body._shapes)
         remarks = [_case_message(pointer, k) for k in range(number if code > 0 else 0)]
     finish(code, body._named(message))
-    done = replace(found, displacement=displacement, reaction=body.reaction(displacement, found.force, forces))
+    reaction = body.reaction(displacement, found.force, forces)
+    reaction[found.status < 0] = np.nan
+    done = replace(found, displacement=displacement, reaction=reaction)
     for k, remark in enumerate(remarks):
         if remark and found.status[k] == Status.DONE:
             done = reported(done, k, Status(code), body._named(remark))
@@ -101,8 +102,7 @@ def _collapse(body: Body, load: Doubles) -> str:
     assert links is not None
     # Without nodes the words are those of the links, and of the degree of freedom.
     words = links.describe(u, [[0.0, 0.0]], [[-1, -1]]).split("; the structure")[0]
-    moves = body._names.words(int(np.abs(u).argmax()))
-    return f"nothing balances the load: {words}, and {moves} moves most; Body.mechanism gives the motion"
+    return f"nothing balances the load: {words}, and {body._names.most(u)} moves most; Body.mechanism gives the motion"
 
 
 def _motion(body: Body, mode: int) -> str:
@@ -110,4 +110,4 @@ def _motion(body: Body, mode: int) -> str:
     force, motions = np.zeros(body._n), np.zeros((2, body._mode_count()))
     motions[1, mode] = 1.0
     still, moved = (body.recover(force, motion) for motion in motions)
-    return f"which moves {body._names.words(int(np.abs(moved - still).argmax()))} most"
+    return f"which moves {body._names.most(moved - still)} most"

@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 Doubles = NDArray[np.float64]
 
-# Below this a displacement is rounding, relative to the largest one.
-_NOTHING = 1e-8
+# Below this a displacement is an error of the modes, relative to the largest one.
+_NOTHING = 1e-6
 
 
 def null_space(rows: Doubles, scale: float = 1.0) -> Doubles:
-    """Orthonormal columns that rows take to zero, but for rounding of numbers of this scale."""
-    _, values, right = np.linalg.svd(rows)
+    """Orthonormal columns that rows take to zero, but for errors of numbers of this scale."""
+    _, values, right = np.linalg.svd(np.linalg.qr(rows, mode="r"))
     return np.asarray(right[np.count_nonzero(values > _NOTHING * scale) :].T)
 
 
@@ -38,9 +38,9 @@ def modes_of(probe: Any) -> Doubles:
 
 
 def free_motions(
-    motions: Doubles, position: Doubles, dof: NDArray[np.intc], words: Callable[[int], str]
+    motions: Doubles, position: Doubles, dof: NDArray[np.intc], most: Callable[[Doubles], str]
 ) -> dict[str, Doubles]:
-    """Motions that nothing holds by their sentences, for each axis and each mechanism; `words` are those of a dof."""
+    """Motions that nothing holds by their sentences, for each axis and each mechanism, whose `most` is told."""
     if motions.shape[1] == 0:
         return {}
     dimensions = position.shape[1]
@@ -59,8 +59,7 @@ def free_motions(
         found[f"nothing keeps the structure from turning about {axis}"] = rigid @ part
     # Neither motions of the whole structure, nor seen at its nodes.
     for part in np.hstack([null_space(rigid.T), rigid @ null_space(share)]).T:
-        most = words(int(np.abs(motions @ part).argmax()))
-        found[f"nothing holds a mechanism that moves {most} most"] = part
+        found[f"nothing holds a mechanism that moves {most(motions @ part)} most"] = part
     return {sentence: motions @ part / np.abs(motions @ part).max() for sentence, part in found.items()}
 
 
@@ -82,8 +81,10 @@ def _directions(columns: Doubles, axes: str) -> Iterator[tuple[str, Doubles]]:
     space = left[:, values > _NOTHING]
     inside = np.linalg.norm(space @ space.T - np.eye(len(columns)), axis=0) < 1e-6
     named = [(axes[k], np.eye(len(columns))[k]) for k in np.flatnonzero(inside)]
-    skew = (space @ null_space(space[inside])).T
-    named += [("(" + ", ".join(f"{value:.2g}" for value in vector) + ")", vector) for vector in skew]
+    for vector in (space @ null_space(space[inside])).T:
+        # Zero is added, so that none shows as -0.
+        vector = vector * np.sign(vector[np.abs(vector).argmax()])
+        named.append((f"({', '.join(f'{value + 0.0:g}' for value in vector.round(2))})", vector))
     combine = np.linalg.pinv(columns, rcond=_NOTHING)
     for axis, vector in named:
         yield axis, combine @ vector
