@@ -7,10 +7,15 @@ from typing import Any, Callable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from fuge.errors import EquilibriumError
+
 Doubles = NDArray[np.float64]
 
 # Below this a displacement is an error of the modes, relative to the largest one.
 _NOTHING = 1e-6
+
+# Contact points by which motions are found, and degrees of freedom of each.
+_POINTS, _WIDTH = 8, 256
 
 
 def null_space(rows: Doubles, scale: float = 1.0) -> Doubles:
@@ -22,18 +27,26 @@ def null_space(rows: Doubles, scale: float = 1.0) -> Doubles:
 def modes_of(probe: Any) -> Doubles:
     """All rigid modes and mechanisms of a body, (degrees, modes), the largest displacement of each of size 1.
 
-    Random combinations of all displacements, as contact points, leave out no mode.
+    They have to move contact points: random combinations of displacements, and what a random load still drives.
     """
+    random = np.random.default_rng(0)
+    width = min(probe.degrees, _WIDTH)
+    points = [random.choice(probe.degrees, width, replace=False) for _ in range(_POINTS)]
     probe.find_rigid_modes()
-    points = 8
+    probe.set_load(random.standard_normal(probe.degrees))
     while True:
-        normal = np.random.default_rng(0).standard_normal((points, probe.degrees))
-        probe.set_contact(np.tile(np.arange(probe.degrees, dtype=np.intc), (points, 1)), normal)
-        count = probe.condense().modes.shape[1]
-        if count < points:
+        dof = np.array([np.resize(point, width) for point in points])
+        dof[_POINTS:, 1:] = -1
+        probe.set_contact(dof, random.standard_normal(dof.shape))
+        try:
+            count = probe.condense().modes.shape[1]
             break
-        points *= 2
-    modes = [probe.recover(np.zeros(points), motion) for motion in np.eye(count)]
+        except EquilibriumError as failure:
+            if len(points) > probe.degrees + _POINTS:
+                raise
+            points.append(np.array([int(failure.message.split("degree of freedom ", 1)[1].split()[0])]))
+    probe.set_load(np.zeros(probe.degrees))
+    modes = [probe.recover(np.zeros(len(points)), motion) for motion in np.eye(count)]
     return np.reshape([mode / np.abs(mode).max() for mode in modes], (count, probe.degrees)).T
 
 
