@@ -14,7 +14,7 @@ from fuge import _arrays
 from fuge._calls import Owner, call, new_handle
 from fuge._library import function
 from fuge._messages import in_python
-from fuge.cases import Cases
+from fuge.cases import Cases, checked_names
 from fuge.columns import compressed, is_sparse, require_sparse, stacked
 from fuge.dof_names import DofNames
 from fuge.errors import Status, error, finish
@@ -82,14 +82,13 @@ class Body(Owner):
     _message_function = "fuge_body_message"
 
     def __init__(self, stiffness: Any) -> None:
-        self._again: Callable[[], Body] = partial(Body, stiffness)
         self._names = DofNames(stiffness)
         if is_sparse(stiffness):
             self._sparse(stiffness)
             return
         matrix = _arrays.symmetric("stiffness", stiffness)
         self._create("fuge_body_dense", matrix.shape[0], matrix, matrix.shape[0])
-        self._keep(matrix, matrix)
+        self._keep(matrix, matrix, partial(Body, matrix))
 
     @classmethod
     def from_band(cls, ab: ArrayLike, *, upper: bool = False) -> Body:
@@ -105,10 +104,11 @@ class Body(Owner):
         band = _arrays.columns("ab", ab, (None, None))
         rows, degrees = band.shape
         body = cls.__new__(cls)
-        body._again, body._names = partial(cls.from_band, band, upper=upper), DofNames(None)
+        body._names = DofNames(None)
         body._create("fuge_body_band", degrees, rows - 1, band, rows, int(bool(upper)))
         diagonals = (rows - 1 if upper else 0) - np.arange(rows)
-        body._keep(band, dia_matrix((band, diagonals), shape=(degrees, degrees)))
+        matrix = dia_matrix((band, diagonals), shape=(degrees, degrees))
+        body._keep(band, matrix, partial(cls.from_band, band, upper=upper))
         return body
 
     def _sparse(self, stiffness: Any) -> None:
@@ -117,21 +117,22 @@ class Body(Owner):
             raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
         require_sparse()
         self._create("fuge_body_sparse", matrix.shape[0], matrix.column, matrix.row, matrix.value)
-        self._keep(matrix, matrix)
+        self._keep(matrix, matrix, partial(Body, matrix))
 
     def _create(self, create: str, degrees: int, *arguments: Any) -> None:
         self.degrees = degrees
         self._dof, self._normal = np.empty((0, 1), dtype=np.intc), np.empty((0, 1))
         self._fixed, self._settled = np.empty(0, dtype=np.intc), np.empty(0)
+        self._supports: tuple[str, ...] | None = None
         self._load: NDArray[np.float64] | None = None
         self._links: Links | None = None
         self._solver: Solver | None = None
         self._handle = new_handle("body", create, "fuge_body_free", degrees, *arguments)
 
-    def _keep(self, used: Any, matrix: Any) -> None:
-        """Keep what the library refers to, and the matrix."""
+    def _keep(self, used: Any, matrix: Any, again: Callable[[], Body]) -> None:
+        """Keep what the library refers to, the matrix, and how to make the body once more."""
         self._handle.keep(used)
-        self._matrix = matrix
+        self._matrix, self._again = matrix, again
 
     def __repr__(self) -> str:
         held = f"{self.degrees} degrees of freedom, {self._fixed.size} of them fixed"
@@ -142,18 +143,22 @@ class Body(Owner):
         """Number of contact points."""
         return len(self._dof)
 
-    def fix(self, dof: ArrayLike, displacement: ArrayLike | None = None) -> None:
+    def fix(self, dof: ArrayLike, displacement: ArrayLike | None = None, *, names: Sequence[str] | None = None) -> None:
         """Fix degrees of freedom, at zero or at these displacements, in place of those that were fixed before.
 
         Parameters
         ----------
         dof : array_like of int, shape (count,)
         displacement : array_like, shape (count,), or float, optional
+        names : sequence of str, optional
+            Of the supports, for tables of reactions; otherwise those of the degrees of freedom.
         """
         fixed = _arrays.integers("dof", dof, (None,))
         given = None if displacement is None else _arrays.spread("displacement", displacement, fixed.size)
+        supports = None if names is None else checked_names(names, fixed.size)
         self._call("fuge_body_fix", fixed.size, fixed, given)
-        self._fixed, self._settled = fixed.copy(), np.zeros(fixed.size) if given is None else given.copy()
+        self._supports, self._fixed = supports, fixed.copy()
+        self._settled = np.zeros(fixed.size) if given is None else given.copy()
 
     def set_load(self, load: ArrayLike) -> None:
         """Set the external load, one force for each degree of freedom. After :meth:`condense` it costs one solve."""
@@ -351,6 +356,8 @@ class Body(Owner):
 
         Raises
         ------
+        EquilibriumError
+            The load drives a motion that moves no link; :meth:`check_stability` tells which.
         CallOrderError
             There are no links, or the body has not been condensed, or has changed since.
         """
@@ -431,6 +438,9 @@ class Body(Owner):
         wrong = dof[(dof < least) | (dof >= self.degrees)]
         if wrong.size > 0:
             raise error(Status.ERR_DOF, f"{name} has {wrong[0]}, but there are {self.degrees} degrees of freedom")
+
+    def _support_names(self) -> tuple[str, ...]:
+        return self._supports or tuple(self._names[int(dof)] for dof in self._fixed)
 
     def _named(self, message: str) -> str:
         """The message with names of links and degrees of freedom."""

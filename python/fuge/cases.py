@@ -20,7 +20,7 @@ from fuge.tables import Table
 
 TableKind = Literal["links", "reactions"]
 
-_STATES = {
+_STATES: dict[int, str] = {
     PointState.OPEN: "open",
     PointState.AT_LOWER_STOP: "contact",
     PointState.AT_UPPER_STOP: "upper",
@@ -178,12 +178,10 @@ class Envelope:
         )
 
 
-def case_names(names: Sequence[str] | None, number: int) -> tuple[str, ...]:
-    """Names of load cases, those given or their numbers."""
-    if names is None:
-        return tuple(f"load case {k}" for k in range(number))
-    if len(names) != number or isinstance(names, str):
-        raise error(Status.ERR_SIZE, f"names has {len(names)} names, but there are {number} load cases")
+def checked_names(names: Sequence[str], number: int) -> tuple[str, ...]:
+    """As many names as there are load cases or supports."""
+    if isinstance(names, str) or len(names) != number:
+        raise error(Status.ERR_SIZE, f"names must have {number} elements, but is {names!r:.60}")
     return tuple(map(str, names))
 
 

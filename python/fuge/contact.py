@@ -201,8 +201,8 @@ def no_solver() -> Exception:
     """The error of a solution that is not the last one of a solver that is still there."""
     return error(
         Status.ERR_CALL_ORDER,
-        "the solver of this solution has gone, or has solved another problem since: make a fuge.Solver and keep it, and "
-        "call this before it solves again; for a proof pass prove=True to fuge.solve",
+        "the solver of this solution has gone, or has solved another problem since: make a fuge.Solver and keep it, "
+        "and call this before it solves again; for a proof pass prove=True to fuge.solve",
     )
 
 

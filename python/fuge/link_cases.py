@@ -13,7 +13,7 @@ from fuge import _arrays
 from fuge._calls import MESSAGE_LENGTH
 from fuge._library import function
 from fuge._messages import in_python
-from fuge.cases import Cases, case_names, reported, warn_of_cases
+from fuge.cases import Cases, reported, warn_of_cases
 from fuge.errors import Status, Warning, finish, warn
 from fuge.links import listed
 
@@ -30,7 +30,6 @@ def solve_link_cases(
     forces = _arrays.doubles("loads", loads, (None, body.degrees))
     number = len(forces)
     moved = None if supports is None else _arrays.doubles("supports", supports, (number, body._fixed.size))
-    called = case_names(names, number)
     solver, links = body._pose()
     _warn_of_idle(body, links.names, body._settled[None] if moved is None else moved)
     displacement, resultant = np.empty((number, body._n)), np.empty((number, body._mode_count()))
@@ -41,8 +40,8 @@ def solve_link_cases(
         reasons = [_case_message(pointer, k) for k in range(number if code >= 0 else 0)]
     if code < 0:
         finish(code, body._named(message))
-    found = solver._solve_cases(displacement + links.gap, resultant if resultant.size else None, called, prove)
-    found = replace(found, links=links.names, supports=tuple(body._names[int(dof)] for dof in body._fixed))
+    found = solver._solve_cases(displacement + links.gap, resultant if resultant.size else None, names, prove)
+    found = replace(found, links=links.names, supports=body._support_names())
     for k in np.flatnonzero(found.status):
         status = int(refused[k] or found.status[k])
         if refused[k]:

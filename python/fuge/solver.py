@@ -16,7 +16,7 @@ from fuge._calls import MESSAGE_LENGTH, Owner, end_call, interruptible, new_hand
 from fuge._library import function, struct
 from fuge._messages import in_python
 from fuge._words import Words
-from fuge.cases import Cases, case_names, warn_of_cases
+from fuge.cases import Cases, checked_names, warn_of_cases
 from fuge.cells import known_cells
 from fuge.contact import Contact, Derivative, History, Info, info_of, no_solver
 from fuge.design import Gradients, WantedContact
@@ -382,7 +382,7 @@ class Solver(Owner):
         if not sizes or sizes[0] != sizes[-1]:
             raise error(Status.ERR_SIZE, "load cases need gap or load, or both with a row for each case")
         number = sizes[0]
-        called = case_names(names, number)
+        called = checked_names([f"load case {k}" for k in range(number)] if names is None else names, number)
         self._found = None
         force, found = np.full((number, self.n), np.nan), np.full((number, self.n), np.nan)
         motion, status = np.full((number, m), np.nan), np.zeros(number, dtype=np.intc)
