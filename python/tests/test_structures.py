@@ -87,6 +87,23 @@ class Reactions(unittest.TestCase):
             np.testing.assert_allclose(body.reaction(cases.displacement[0], cases.force[0]), [18.0, 6.0], rtol=1e-11)
         self.assertRaises(fuge.InputError, body.reaction, np.zeros(6), [1.0, 2.0])
 
+    def test_links_between_nodes(self):
+        # A node on springs of 100, linked to one that is fixed 5 away; E A/L = 100 takes half of a force along the link.
+        ends = [0, 1], [2, 3], [0.0, 0.0], [3.0, 4.0]
+        links = [fuge.Links() for _ in range(4)]
+        links[0].add_member(*ends, area=1.0, modulus=500.0)
+        links[1].add_member(*ends, area=1.0, modulus=500.0, kind="compression_only")
+        links[2].add_gap([2, 3], [0, 1], [-3.0, -4.0], compliance=0.01)
+        links[3].add_gap([0, 1], [2, 3], [3.0, 4.0], gap=9.0, play=9.0, compliance=0.01)  # at its second stop
+        for link, sign, prove in zip(links, (-1.0, 1.0, 1.0, -1.0), (False, True, False, True)):
+            body = fuge.Body(np.diag([100.0] * 4))
+            body.fix([2, 3])
+            body.set_links(link)
+            body.condense()
+            cases = body.solve_cases([[sign * 6.0, sign * 8.0, 0.0, 0.0]], prove=prove)
+            np.testing.assert_allclose(np.abs(cases.force), [[5.0]], rtol=1e-12)
+            np.testing.assert_allclose(cases.reaction, [[-sign * 3.0, -sign * 4.0]], rtol=1e-12)
+
     def test_equilibrium(self):
         # Inclined feet, one at a corner that is held along x: part of their forces goes into the supports.
         body = standing(CUBE, held=(0, 1, 4), direction=(1.0, 0.0, 2.0))
