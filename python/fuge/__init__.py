@@ -43,6 +43,7 @@ Bodies of finite elements
 
     Body(stiffness).condense()              one body condensed to its contact points: Condensed
     Links                                   supports that lift off, gaps, cables and struts of a structure
+    Cases.table, Cases.envelope_table       results of load cases with names: a Table
     remove_member                           a stiffness matrix without a member, whose place a link takes
     ElasticBodies().solve()                 several bodies in one call: BodiesContact; join gives JoinedBodies
     ContactPairs, Surface                   contact points of two surfaces whose meshes need not match
@@ -241,5 +242,6 @@ from fuge.stress_peak import (
     halfspace_peak as halfspace_peak,
     ring_peak as ring_peak,
 )
+from fuge.tables import Table as Table
 
 __version__ = _library.version()

@@ -11,7 +11,7 @@ from fuge.columns import CompressedColumns
 from fuge.errors import InputError, Status
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class StiffnessFile(CompressedColumns):
     """A stiffness matrix, for :class:`Body`, and the names of its rows.
 
