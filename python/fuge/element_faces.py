@@ -1,0 +1,89 @@
+"""Nodes and faces of the elements of Abaqus and CalculiX, which number both alike, by the names of their types."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+MOST_FACE_NODES = 8
+
+# The letters before the number of nodes, and what they are; others may follow, as in C3D20R.
+_FAMILIES = {
+    **dict.fromkeys(["CPS", "CPE", "CAX"], "plane"),
+    **dict.fromkeys(["M3D", "R3D", "S"], "shell"),
+    **dict.fromkeys(["T2D", "T3D"], "truss"),
+    "C3D": "solid",
+}
+_TYPE = re.compile(rf"({'|'.join(_FAMILIES)})(\d\d?)(?!\d)", re.ASCII)
+
+# Corners of the faces S1, S2 .. of solids with as many corners, counter-clockwise if seen from outside, and the ends of
+# the edges on which the further nodes of a quadratic element lie.
+_CORNERS = {
+    4: "132 124 234 314",
+    6: "132 456 1254 2365 3146",
+    8: "1432 5678 1265 2376 3487 4158",
+}
+_EDGES = {
+    4: "12 23 31 14 24 34",
+    6: "12 23 31 45 56 64 14 25 36",
+    8: "12 23 34 41 56 67 78 85 15 26 37 48",
+}
+
+
+class ElementType(NamedTuple):
+    """What the name of a type says: the family plane, solid, shell (or membrane or rigid face) or truss, and nodes."""
+
+    family: str
+    nodes: int
+
+
+def element_type(name: str) -> ElementType | None:
+    """Family and number of nodes of a type in upper case; None if its name does not say them."""
+    match = _TYPE.match(name)
+    # The number of nodes of some types varies.
+    if match is None or "V" in name or int(match[2]) in (0, 27):
+        return None
+    return ElementType(_FAMILIES[match[1]], int(match[2]))
+
+
+def is_shell(name: str) -> bool:
+    """Whether elements of a type have faces SPOS and SNEG: shells, membranes and rigid faces."""
+    kind = element_type(name)
+    return kind is not None and kind.family == "shell"
+
+
+def face_nodes(name: str, face: int) -> list[int] | None:
+    """The nodes of face 1, 2 .. of a type, counted in the element from 0; None if it is not known to have such a face.
+
+    Corners first, then the nodes on the edges from corner to corner. Of a solid, the corners follow each other
+    counter-clockwise if seen from outside. Of an element of a plane, a face is an edge, counter-clockwise round it. A
+    shell has face 1, SNEG, on the side of its negative normal, and 2, SPOS, on that of its positive one.
+    """
+    kind = element_type(name)
+    faces = _FACES.get(kind, []) if kind else []
+    return faces[face - 1] if 1 <= face <= len(faces) else None
+
+
+def _solid_faces(corners: int, quadratic: bool) -> list[list[int]]:
+    edges = [set(edge) for edge in _EDGES[corners].split()]
+    faces = []
+    for around in _CORNERS[corners].split():
+        middles = [corners + edges.index({a, b}) for a, b in zip(around, around[1:] + around[0])]
+        faces.append([int(corner) - 1 for corner in around] + middles * quadratic)
+    return faces
+
+
+def _plane_faces(corners: int, quadratic: bool) -> list[list[int]]:
+    return [[k, (k + 1) % corners] + [corners + k] * quadratic for k in range(corners)]
+
+
+def _shell_faces(corners: int, quadratic: bool) -> list[list[int]]:
+    nodes = list(range(corners * (1 + quadratic)))
+    return [[0, *nodes[corners - 1 : 0 : -1], *reversed(nodes[corners:])], nodes]
+
+
+_FACES = {
+    **{ElementType("solid", c + q * len(_EDGES[c].split())): _solid_faces(c, q) for c in _EDGES for q in (False, True)},
+    **{ElementType("plane", c * (1 + q)): _plane_faces(c, q) for c in (3, 4) for q in (False, True)},
+    **{ElementType("shell", c * (1 + q)): _shell_faces(c, q) for c in (3, 4) for q in (False, True)},
+}
