@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
 
 MOST_FACE_NODES = 8
 
-# The letters before the number of nodes, and what they are; others may follow, as in C3D20R.
+# Letters before the number of nodes, and what they mean; others may follow, as in C3D20R.
 _FAMILIES = {
     **dict.fromkeys(["CPS", "CPE", "CAX"], "plane"),
     **dict.fromkeys(["M3D", "R3D", "S"], "shell"),
@@ -30,38 +29,27 @@ _EDGES = {
 }
 
 
-class ElementType(NamedTuple):
-    """What the name of a type says: the family plane, solid, shell (or membrane or rigid face) or truss, and nodes."""
+def element_type(name: str) -> tuple[str, int]:
+    """Family and number of nodes that the name of a type, in upper case, says; '' and 0 if it does not.
 
-    family: str
-    nodes: int
-
-
-def element_type(name: str) -> ElementType | None:
-    """Family and number of nodes of a type in upper case; None if its name does not say them."""
+    Families are plane, solid, truss, and shell with membranes and rigid faces.
+    """
     match = _TYPE.match(name)
     # The number of nodes of some types varies.
     if match is None or "V" in name or int(match[2]) in (0, 27):
-        return None
-    return ElementType(_FAMILIES[match[1]], int(match[2]))
+        return "", 0
+    return _FAMILIES[match[1]], int(match[2])
 
 
-def is_shell(name: str) -> bool:
-    """Whether elements of a type have faces SPOS and SNEG: shells, membranes and rigid faces."""
-    kind = element_type(name)
-    return kind is not None and kind.family == "shell"
-
-
-def face_nodes(name: str, face: int) -> list[int] | None:
-    """The nodes of face 1, 2 .. of a type, counted in the element from 0; None if it is not known to have such a face.
+def face_nodes(name: str, face: int) -> list[int]:
+    """The nodes of face 1, 2 .. of a type, counted in the element from 0; none if it is not known to have such a face.
 
     Corners first, then the nodes on the edges from corner to corner. Of a solid, the corners follow each other
     counter-clockwise if seen from outside. Of an element of a plane, a face is an edge, counter-clockwise round it. A
     shell has face 1, SNEG, on the side of its negative normal, and 2, SPOS, on that of its positive one.
     """
-    kind = element_type(name)
-    faces = _FACES.get(kind, []) if kind else []
-    return faces[face - 1] if 1 <= face <= len(faces) else None
+    faces = _FACES.get(element_type(name), [])
+    return faces[face - 1] if 1 <= face <= len(faces) else []
 
 
 def _solid_faces(corners: int, quadratic: bool) -> list[list[int]]:
@@ -73,17 +61,11 @@ def _solid_faces(corners: int, quadratic: bool) -> list[list[int]]:
     return faces
 
 
-def _plane_faces(corners: int, quadratic: bool) -> list[list[int]]:
-    return [[k, (k + 1) % corners] + [corners + k] * quadratic for k in range(corners)]
-
-
-def _shell_faces(corners: int, quadratic: bool) -> list[list[int]]:
-    nodes = list(range(corners * (1 + quadratic)))
-    return [[0, *nodes[corners - 1 : 0 : -1], *reversed(nodes[corners:])], nodes]
-
-
-_FACES = {
-    **{ElementType("solid", c + q * len(_EDGES[c].split())): _solid_faces(c, q) for c in _EDGES for q in (False, True)},
-    **{ElementType("plane", c * (1 + q)): _plane_faces(c, q) for c in (3, 4) for q in (False, True)},
-    **{ElementType("shell", c * (1 + q)): _shell_faces(c, q) for c in (3, 4) for q in (False, True)},
-}
+_FACES = {}
+for _quadratic in (False, True):
+    for _c in (4, 6, 8):
+        _FACES["solid", _c + _quadratic * len(_EDGES[_c].split())] = _solid_faces(_c, _quadratic)
+    for _c in (3, 4):
+        _nodes = list(range(_c * (1 + _quadratic)))
+        _FACES["plane", len(_nodes)] = [[k, (k + 1) % _c] + [_c + k] * _quadratic for k in range(_c)]
+        _FACES["shell", len(_nodes)] = [[0, *_nodes[_c - 1 : 0 : -1], *reversed(_nodes[_c:])], _nodes]

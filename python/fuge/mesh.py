@@ -28,7 +28,6 @@ _INSIDE = 1.0e-3
 # Of a node: three displacements, three rotations.
 _DIRECTIONS = 6
 
-
 _Value = TypeVar("_Value")
 
 
@@ -70,10 +69,13 @@ class Mesh:
     paths: list[str] = field(default_factory=list)
 
     def __repr__(self) -> str:
-        types = _listed(dict.fromkeys(self.element_types.tolist()))
-        names = (("node sets", self.node_sets), ("element sets", self.element_sets), ("surfaces", self.surfaces))
-        lists = "; ".join(f"{what} {_listed(list_)}" for what, list_ in names if list_)
-        return f"<Mesh: {self.node.size} nodes, {self.element.size} elements ({types}){'; ' * bool(lists)}{lists}>"
+        parts = [
+            f"{self.node.size} nodes",
+            f"{self.element.size} elements {_listed(sorted(set(self.element_types.tolist())))}",
+        ]
+        for what, names in (("node sets", self.nodes_of_sets), ("surfaces", self.faces_of_surfaces)):
+            parts += [f"{what} {_listed(names)}"] if names else []
+        return f"<Mesh: {', '.join(parts)}>"
 
     @property
     def node_sets(self) -> list[str]:
@@ -200,7 +202,7 @@ class Mesh:
             chosen = elements[alike]
             place = face_nodes(type, number)
             where = f"surface {quoted(name)}: "
-            if place is None:
+            if not place:
                 reason = f"of type {type} has no face S{number}, or its faces are not known"
                 raise error(Status.ERR_ELEMENT, f"{where}element {self.element[chosen[0]]} {reason}")
             faces[alike, : len(place)] = self.connection[self.first[chosen][:, None] + place]
@@ -213,13 +215,13 @@ class Mesh:
 
     def _look_inside(self, elements: NDArray[np.intc], faces: NDArray[np.intc], type: str) -> NDArray[np.bool_]:
         """Whether faces of solids, or of elements of a plane, look to the side where the middle of the element lies."""
-        kind = element_type(type)
-        if kind is None or kind.family in ("shell", "truss"):
+        family, nodes = element_type(type)
+        if family == "shell":
             return np.zeros(elements.size, dtype=bool)
-        body = self.position[self.connection[self.first[elements][:, None] + np.arange(kind.nodes)]]
+        body = self.position[self.connection[self.first[elements][:, None] + np.arange(nodes)]]
         x = self.position[faces]
         inwards = body.mean(1) - x.mean(1)
-        if kind.family == "plane":
+        if family == "plane":
             normal = np.cross(x[:, 1] - x[:, 0], [0.0, 0.0, 1.0])
         elif faces.shape[1] % 3 == 0:
             normal = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])
@@ -231,14 +233,14 @@ class Mesh:
     def surface(self, name: str, stiffness: StiffnessFile | None, dimensions: int = 3) -> Surface:
         """A surface with the degrees of freedom of its nodes, for :class:`ElasticBodies` and :class:`ContactPairs`.
 
-        Faces of shells and membranes lie where their nodes are, without their thickness, which `gap` may take into
-        account; they look along the normal of the element (SPOS) or against it (SNEG).
+        The faces of shells and membranes lie where their nodes do, without the thickness, and look along the normal of
+        the element (SPOS) or against it (SNEG).
 
         Parameters
         ----------
         name : str
         stiffness : StiffnessFile or None
-            The matrix of this mesh, whose rows have names; None: the surface is rigid.
+            The matrix of this mesh, whose rows have names; None for a rigid surface.
         dimensions : int
             2 or 3.
 
@@ -247,26 +249,26 @@ class Mesh:
         InputError
             The mesh has no such surface, or rows have no names, the same name or those of another mesh.
         """
+        what = f"surface {quoted(name)}"
         count = _arrays.integer("dimensions", dimensions)
         if count not in (2, 3):
             raise error(Status.ERR_OPTION, f"dimensions = {count}: it is 2 or 3")
         faces = self.faces(name)
-        for k in _named(self.faces_of_surfaces, name, "surface")[0]:
-            kind = element_type(str(self.element_types[k]))
-            if kind is None or (kind.family == "plane") != (count == 2):
-                reason = f"is none of {count} dimensions: set dimensions to those of the mesh"
-                which = f"element {self.element[k]} of type {self.element_types[k]}"
-                raise error(Status.ERR_ELEMENT, f"surface {quoted(name)}: {which} {reason}")
+        for k in self.faces_of_surfaces[name.upper()][0]:
+            if (element_type(self.element_types[k])[0] == "plane") != (count == 2):
+                which = f"element {self.element[k]} of type {self.element_types[k]} is none of {count} dimensions"
+                raise error(Status.ERR_ELEMENT, f"{what}: {which}: set dimensions to those of the mesh")
         node = np.ascontiguousarray(self.position[:, :count])
         if stiffness is None:
             return Surface(node, faces)
-        rows = self._rows(f"surface {quoted(name)}", faces[faces >= 0], stiffness)[:, :count]
-        if np.all(rows[faces[faces >= 0]] < 0):
+        members = faces[faces >= 0]
+        dof = np.ascontiguousarray(self._rows(what, members, stiffness)[:, :count])
+        if np.all(dof[members] < 0):
             reason = (
                 "the stiffness matrix has no row of its nodes, so none of them moves: pass None for a rigid surface"
             )
-            raise error(Status.ERR_DOF, f"surface {quoted(name)}: {reason}")
-        return Surface(node, faces, np.ascontiguousarray(rows))
+            raise error(Status.ERR_DOF, f"{what}: {reason}")
+        return Surface(node, faces, dof)
 
     def set_dof(self, name: str, direction: int, stiffness: StiffnessFile) -> NDArray[np.intc]:
         """Degrees of freedom of a set of nodes along one direction: 1 to 3 for x, y, z, 4 to 6 about them.
@@ -278,35 +280,34 @@ class Mesh:
         if not 1 <= along <= _DIRECTIONS:
             raise error(Status.ERR_OPTION, f"direction = {along}: directions are 1 to {_DIRECTIONS}")
         dof = self._rows(f"set {quoted(name)}", members, stiffness)[members, along - 1]
-        return np.asarray(dof[dof >= 0])
+        return np.compress(dof >= 0, dof)
 
     def _rows(self, what: str, members: NDArray[np.intc], stiffness: StiffnessFile) -> NDArray[np.intc]:
-        """Row of each direction of all nodes, -1 where there is none; refused if members show another mesh's matrix."""
+        """Row of each direction of each node, -1 where there is none; refused if members show another mesh's matrix."""
         node = _arrays.integers("stiffness.node", stiffness.node, (None,))
         direction = _arrays.integers("stiffness.direction", stiffness.direction, node.shape)
-        if not np.any((node != 0) & (direction != 0)):
-            reason = "read it from a file that names node and direction, or with a file of names (names_path)"
-            raise error(Status.ERR_DOF, f"the rows of the stiffness matrix have no names: {reason}")
+        named = np.flatnonzero((node != 0) & (direction >= 1) & (direction <= _DIRECTIONS))
+        if not named.size:
+            reason = "have no names: read it from a file that names node and direction, or with names_path"
+            raise error(Status.ERR_DOF, f"the rows of the stiffness matrix {reason}")
         order = np.argsort(self.node, kind="stable")
-        place = order[np.minimum(np.searchsorted(self.node[order], node), order.size - 1)]
-        is_known = self.node[place] == node
-        is_direction = (direction >= 1) & (direction <= _DIRECTIONS)
-        row = np.flatnonzero(is_known & is_direction)
+        place = np.searchsorted(self.node, node[named], sorter=order)
+        place = order[np.minimum(place, order.size - 1)]
+        is_known = self.node[place] == node[named]
+        row = named[is_known]
+        at = place[is_known], direction[row] - 1
         rows = np.full((self.node.size, _DIRECTIONS), -1, dtype=np.intc)
-        rows[place[row], direction[row] - 1] = row
-        twice = row[rows[place[row], direction[row] - 1] != row]
-        if twice.size:
-            reason = f"are node {node[twice[0]]}, direction {direction[twice[0]]}: each needs a name of its own"
+        rows[at] = row
+        for k in row[rows[at] != row]:
+            reason = f"are node {node[k]}, direction {direction[k]}: each needs a name of its own"
             raise error(Status.ERR_DOF, f"two rows of the stiffness matrix {reason}")
-        lost = members[np.all(rows[members] < 0, axis=1)]
-        strange = np.flatnonzero(~is_known & is_direction)
-        if lost.size and np.all(rows < 0):
-            reason = f"such as {self.node[lost[0]]}: are mesh and matrix of one model?"
-            raise error(Status.ERR_DOF, f"the stiffness matrix has no row of any node of the mesh, {reason}")
-        if lost.size and strange.size:
-            reason = f"rows of node {node[strange[0]]}, unknown to the mesh: are both of one model?"
-            lost_node = f"node {self.node[lost[0]]} has no row in the stiffness matrix"
-            raise error(Status.ERR_DOF, f"{what}: {lost_node}, which has {reason}")
+        for k in members[np.all(rows[members] < 0, axis=1)]:
+            if not row.size:
+                reason = f"of any node of the mesh, such as {self.node[k]}: are mesh and matrix of one model?"
+                raise error(Status.ERR_DOF, f"the stiffness matrix has no row {reason}")
+            for j in named[~is_known]:
+                reason = f"which has rows of node {node[j]}, unknown to the mesh: are both of one model?"
+                raise error(Status.ERR_DOF, f"{what}: node {self.node[k]} has no row in the stiffness matrix, {reason}")
         return rows
 
 
