@@ -160,7 +160,9 @@ class Mesh:
         counts = np.diff(self.first)
         elements = np.full((counts.size, counts.max(initial=1)), -1, dtype=np.intc)
         elements[np.arange(elements.shape[1]) < counts[:, None]] = self.connection
-        handle = _made(self.position, elements, self.element_types.tolist())
+        types = self.element_types.tolist()
+        # A mesh without elements has a type too.
+        handle = _made(self.position, elements, types if len(set(types)) > 1 else [*types, ""][:1])
         try:
             call("fuge_write_mesh", os.fsencode(path), handle.pointer, *arguments)
         except InputError as failure:
@@ -254,10 +256,11 @@ class Mesh:
         if count not in (2, 3):
             raise error(Status.ERR_OPTION, f"dimensions = {count}: it is 2 or 3")
         faces = self.faces(name)
-        for k in self.faces_of_surfaces[name.upper()][0]:
-            if (element_type(self.element_types[k])[0] == "plane") != (count == 2):
-                which = f"element {self.element[k]} of type {self.element_types[k]} is none of {count} dimensions"
-                raise error(Status.ERR_ELEMENT, f"{what}: {which}: set dimensions to those of the mesh")
+        elements = self.faces_of_surfaces[name.upper()][0]
+        families = np.array([element_type(type)[0] for type in self.element_types[elements].tolist()], dtype=np.str_)
+        for k in elements[(families == "plane") != (count == 2)]:
+            which = f"element {self.element[k]} of type {self.element_types[k]} is none of {count} dimensions"
+            raise error(Status.ERR_ELEMENT, f"{what}: {which}: set dimensions to those of the mesh")
         node = np.ascontiguousarray(self.position[:, :count])
         if stiffness is None:
             return Surface(node, faces)
@@ -268,6 +271,9 @@ class Mesh:
                 "the stiffness matrix has no row of its nodes, so none of them moves: pass None for a rigid surface"
             )
             raise error(Status.ERR_DOF, f"{what}: {reason}")
+        if "shell" in families:
+            # Shells have no inside, on which the library would look for other nodes that move.
+            dof[np.setdiff1d(np.arange(len(dof)), members)] = -1
         return Surface(node, faces, dof)
 
     def set_dof(self, name: str, direction: int, stiffness: StiffnessFile) -> NDArray[np.intc]:
@@ -348,11 +354,9 @@ def join_meshes(meshes: Sequence[Mesh]) -> Mesh:
 
 def _made(position: NDArray[np.float64], element: NDArray[np.intc], types: Sequence[str]) -> Handle:
     """The mesh in the library, which checks it."""
-    # A mesh without elements has a type too.
-    names = types if len(set(types)) > 1 else [*types, ""][:1]
     nodes, dimensions = position.shape
     arguments = [dimensions, nodes, position, element.shape[1], element.shape[0], element]
-    return new_handle("mesh", "fuge_mesh_create", "fuge_mesh_free", *arguments, len(names), _arrays.texts(names))
+    return new_handle("mesh", "fuge_mesh_create", "fuge_mesh_free", *arguments, len(types), _arrays.texts(types))
 
 
 def _named(members: Mapping[str, _Value], name: str, what: str) -> _Value:

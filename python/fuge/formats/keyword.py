@@ -152,7 +152,7 @@ def _parsed(line: str, file: _File) -> Block:
     except Reason as reason:
         raise refusal(place, reason) from None
     if keyword is None:
-        raise refusal(place, f"*{text} is no keyword of Abaqus or CalculiX")
+        raise refusal(place, f"{quoted(f'*{text}')} is no keyword of Abaqus or CalculiX")
     block = Block(keyword, {}, place)
     for item in filter(None, items[1:]):
         name, _, value = item.partition("=")

@@ -82,7 +82,7 @@ def _take(read: list[tuple[Block, _Parameters]], take: Callable[[Block, _Paramet
         try:
             take(block, parameters)
         except Reason as reason:
-            raise block.refuse(f"*{block.keyword} {reason}") from None
+            raise block.refuse(reason) from None
 
 
 class _Set:
@@ -201,7 +201,7 @@ class _Reader:
         elif block.keyword == "ELEMENT":
             type = squeezed(parameters.get("TYPE", ""))
             if not (0 < len(type) <= _TYPE_LENGTH and type.isascii() and type.isprintable()):
-                raise Reason(f"needs TYPE = and a type of at most {_TYPE_LENGTH} characters")
+                raise Reason(f"*ELEMENT needs TYPE = and a type of at most {_TYPE_LENGTH} characters")
             if block.lines:
                 labels, counts, nodes = read_elements(block, type)
                 self.elements.blocks[id(block)] = labels
@@ -233,9 +233,9 @@ class _Reader:
             return
         key, table = ("NSET", self.nodes) if block.keyword in ("NODE", "NSET") else ("ELSET", self.elements)
         if block.keyword == key:
-            self._take_set(block, parameters, _named(parameters, key, table.sets), table)
+            self._take_set(block, parameters, _named(block, parameters, key, table.sets), table)
         elif parameters.get(key):
-            _named(parameters, key, table.sets).add(table.of_block(block))
+            _named(block, parameters, key, table.sets).add(table.of_block(block))
 
     def _take_set(self, block: Block, parameters: _Parameters, members: _Set, table: _Table) -> None:
         if block.keyword == "NSET" and "ELSET" in parameters:
@@ -254,12 +254,12 @@ class _Reader:
     def _take_surface(self, block: Block, parameters: _Parameters) -> None:
         type = complete(squeezed(parameters.get("TYPE", "")) or "ELEMENT", _SURFACE_TYPES)
         if type == "ELEMENT":
-            self._take_faces(block, _named(parameters, "NAME", self.surfaces))
+            self._take_faces(block, _named(block, parameters, "NAME", self.surfaces))
         elif type == "NODE":
             read_rows(block, _check_alone)
-            _take_labels(block, _named(parameters, "NAME", self.nodes.sets), self.nodes)
+            _take_labels(block, _named(block, parameters, "NAME", self.nodes.sets), self.nodes)
         elif type is None:
-            raise Reason(f"TYPE = {quoted(parameters['TYPE'])} is not read")
+            raise Reason(f"*SURFACE: TYPE = {quoted(parameters['TYPE'])} is not read")
 
     def _take_faces(self, block: Block, surface: _Set) -> None:
         rows = read_rows(block, lambda items: (self.elements.item(items[0]), _face(items)))
@@ -291,13 +291,13 @@ class _Reader:
         )
 
 
-def _named(parameters: _Parameters, key: str, sets: dict[str, _Set]) -> _Set:
+def _named(block: Block, parameters: _Parameters, key: str, sets: dict[str, _Set]) -> _Set:
     """The set that a parameter names, a new one if there is none."""
     name = parameters.get(key, "").upper()
     if not name:
-        raise Reason(f"needs {key} = and a name")
+        raise Reason(f"*{block.keyword} needs {key} = and a name")
     if len(name) > _NAME_LENGTH:
-        raise Reason(f"has the name {quoted(name)}, which has more than {_NAME_LENGTH} characters")
+        raise Reason(f"the name {quoted(name)} has more than {_NAME_LENGTH} characters")
     return sets.setdefault(name, _Set(name))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Callable, Sequence
 from itertools import chain
@@ -13,6 +14,8 @@ from numpy.typing import NDArray
 from fuge.element_faces import element_type
 from fuge.formats.keyword import Block, split_items
 from fuge.formats.text import LARGEST_LABEL, Reason, label, value
+
+_BLANK = re.compile(r",\s+,")
 
 _Row = TypeVar("_Row")
 
@@ -45,10 +48,14 @@ def plain_labels(lines: Sequence[str]) -> tuple[NDArray[np.int64], NDArray[np.in
 def _numbers(lines: Sequence[str], kind: type[np.generic]) -> tuple[NDArray[Any], NDArray[np.intp]] | None:
     """Numbers between the commas of lines, and how many each has; None if there is anything else."""
     counts = np.array([line.count(",") for line in lines], dtype=np.intp) + 1
+    text = ",".join(lines)
+    # numpy makes a number of blanks.
+    if _BLANK.search(text):
+        return None
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
-            numbers = np.fromstring(",".join(lines), kind, sep=",")
+            numbers = np.fromstring(text, kind, sep=",")
         except (ValueError, DeprecationWarning):
             return None
     return (numbers, counts) if 0 < numbers.size == counts.sum() else None
@@ -88,11 +95,14 @@ def read_elements(block: Block, type: str) -> tuple[Labels, NDArray[np.intp], ND
         is_last = np.array([not line.endswith(",") for line in block.lines])
         is_last[-1] = True
         first = np.append(0, ends[is_last][:-1])
+        wrong = first[np.diff(first, append=numbers.size) < 2]
+        reason = "no nodes"
     else:
         first = np.arange(0, numbers.size, nodes + 1)
         wrong = first[~np.isin(first + nodes + 1, ends)]
-        if wrong.size:
-            reason = f"element {numbers[wrong[0]]} has more or fewer nodes than the {nodes} of its type {type}"
-            raise block.refuse(reason, int(np.searchsorted(ends, wrong[0], side="right")))
+        reason = f"more or fewer nodes than the {nodes} of its type {type}"
+    if wrong.size:
+        k = int(np.searchsorted(ends, wrong[0], side="right"))
+        raise block.refuse(f"element {numbers[wrong[0]]} has {reason}", k)
     labels = Labels(block, numbers[first], np.searchsorted(ends, first, side="right"))
     return labels, np.diff(first, append=numbers.size) - 1, np.delete(numbers, first)
