@@ -16,6 +16,7 @@ from fuge._calls import Handle, call, new_handle
 from fuge.element_faces import MOST_FACE_NODES, element_type, face_nodes
 from fuge.errors import InputError, Status, error
 from fuge.formats.text import PathLike, quoted
+from fuge.mesh_rows import DIRECTIONS, rows_of_nodes
 from fuge.pairs import Surface
 from fuge.stiffness_rows import StiffnessFile
 
@@ -24,9 +25,6 @@ _MOST_LISTED = 12
 
 # A face looks into its element if the sine of the angle between it and the way to the middle is above this.
 _INSIDE = 1.0e-3
-
-# Of a node: three displacements, three rotations.
-_DIRECTIONS = 6
 
 _Value = TypeVar("_Value")
 
@@ -258,18 +256,18 @@ class Mesh:
         faces = self.faces(name)
         elements = self.faces_of_surfaces[name.upper()][0]
         families = np.array([element_type(type)[0] for type in self.element_types[elements].tolist()], dtype=np.str_)
-        for k in elements[(families == "plane") != (count == 2)]:
-            which = f"element {self.element[k]} of type {self.element_types[k]} is none of {count} dimensions"
-            raise error(Status.ERR_ELEMENT, f"{what}: {which}: set dimensions to those of the mesh")
+        others = elements[(families == "plane") != (count == 2)]
+        if others.size:
+            which = f"element {self.element[others[0]]} of type {self.element_types[others[0]]}"
+            reason = f"is none of {count} dimensions: set dimensions to those of the mesh"
+            raise error(Status.ERR_ELEMENT, f"{what}: {which} {reason}")
         node = np.ascontiguousarray(self.position[:, :count])
         if stiffness is None:
             return Surface(node, faces)
         members = faces[faces >= 0]
-        dof = np.ascontiguousarray(self._rows(what, members, stiffness)[:, :count])
+        dof = np.ascontiguousarray(rows_of_nodes(self.node, stiffness, what, members)[:, :count])
         if np.all(dof[members] < 0):
-            reason = (
-                "the stiffness matrix has no row of its nodes, so none of them moves: pass None for a rigid surface"
-            )
+            reason = "the stiffness matrix has no row of its nodes, so none of them moves: a rigid surface has None"
             raise error(Status.ERR_DOF, f"{what}: {reason}")
         if "shell" in families:
             # Shells have no inside, on which the library would look for other nodes that move.
@@ -283,38 +281,10 @@ class Mesh:
         """
         members = self.node_set(name)
         along = _arrays.integer("direction", direction)
-        if not 1 <= along <= _DIRECTIONS:
-            raise error(Status.ERR_OPTION, f"direction = {along}: directions are 1 to {_DIRECTIONS}")
-        dof = self._rows(f"set {quoted(name)}", members, stiffness)[members, along - 1]
+        if not 1 <= along <= DIRECTIONS:
+            raise error(Status.ERR_OPTION, f"direction = {along}: directions are 1 to {DIRECTIONS}")
+        dof = rows_of_nodes(self.node, stiffness, f"set {quoted(name)}", members)[members, along - 1]
         return np.compress(dof >= 0, dof)
-
-    def _rows(self, what: str, members: NDArray[np.intc], stiffness: StiffnessFile) -> NDArray[np.intc]:
-        """Row of each direction of each node, -1 where there is none; refused if members show another mesh's matrix."""
-        node = _arrays.integers("stiffness.node", stiffness.node, (None,))
-        direction = _arrays.integers("stiffness.direction", stiffness.direction, node.shape)
-        named = np.flatnonzero((node != 0) & (direction >= 1) & (direction <= _DIRECTIONS))
-        if not named.size:
-            reason = "have no names: read it from a file that names node and direction, or with names_path"
-            raise error(Status.ERR_DOF, f"the rows of the stiffness matrix {reason}")
-        order = np.argsort(self.node, kind="stable")
-        place = np.searchsorted(self.node, node[named], sorter=order)
-        place = order[np.minimum(place, order.size - 1)]
-        is_known = self.node[place] == node[named]
-        row = named[is_known]
-        at = place[is_known], direction[row] - 1
-        rows = np.full((self.node.size, _DIRECTIONS), -1, dtype=np.intc)
-        rows[at] = row
-        for k in row[rows[at] != row]:
-            reason = f"are node {node[k]}, direction {direction[k]}: each needs a name of its own"
-            raise error(Status.ERR_DOF, f"two rows of the stiffness matrix {reason}")
-        for k in members[np.all(rows[members] < 0, axis=1)]:
-            if not row.size:
-                reason = f"of any node of the mesh, such as {self.node[k]}: are mesh and matrix of one model?"
-                raise error(Status.ERR_DOF, f"the stiffness matrix has no row {reason}")
-            for j in named[~is_known]:
-                reason = f"which has rows of node {node[j]}, unknown to the mesh: are both of one model?"
-                raise error(Status.ERR_DOF, f"{what}: node {self.node[k]} has no row in the stiffness matrix, {reason}")
-        return rows
 
 
 def read_mesh(path: PathLike) -> Mesh:
