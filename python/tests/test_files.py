@@ -168,50 +168,5 @@ class Decks(InFolder):
             deck.read_links(self.file("wrong.csv", "0,2,0,-3,0,1,2,-1\n"))
 
 
-class Meshes(InFolder):
-    text = (
-        "*NODE\n10, 0., 0., 0.\n20, 1., 0., 0.\n30, 0., 1., 0.\n40, 0., 0., 1.\n"
-        "*ELEMENT, TYPE=c3d4, ELSET=Tet\n7, 10, 20, 30, 40\n*NSET, NSET=BASE\n10, 30, 20\n"
-        "*SURFACE, NAME=FOOT\nTET, S1\nTET, S3\n"
-    )
-
-    def test_mesh(self):
-        mesh = fuge.read_mesh(self.file("m.inp", self.text))
-        np.testing.assert_array_equal(mesh.node, [10, 20, 30, 40])
-        np.testing.assert_array_equal(mesh.position, [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
-        np.testing.assert_array_equal(mesh.element, [7])
-        np.testing.assert_array_equal(mesh.first, [0, 4])
-        np.testing.assert_array_equal(mesh.connection, [0, 1, 2, 3])
-        self.assertEqual(mesh.element_type(0), "C3D4")
-        self.assertEqual((mesh.node_sets, mesh.element_sets, mesh.surfaces), (["BASE"], ["TET"], ["FOOT"]))
-        np.testing.assert_array_equal(mesh.node_set("base"), [0, 2, 1])
-        np.testing.assert_array_equal(mesh.element_set("TET"), [0])
-        faces = mesh.faces("foot")
-        self.assertEqual(faces.shape, (2, 8))
-        np.testing.assert_array_equal(faces[0, :4], [0, 2, 1, -1])
-        with self.assertRaisesRegex(fuge.InputError, '"TOP", it has FOOT'):
-            mesh.faces("TOP")
-        self.assertRaises(fuge.InputError, mesh.element_type, 1)
-
-    def test_broken(self):
-        with self.assertRaisesRegex(fuge.FileError, "m.inp"):
-            fuge.read_mesh(self.file("m.inp", "*NODE\n10, x\n"))
-
-    def test_arrays_and_pictures(self):
-        mesh = fuge.Mesh.from_arrays([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1, 2, 3]], "CPE4")
-        self.assertEqual(mesh.position.shape, (4, 3))
-        both = fuge.join_meshes([mesh, mesh])
-        self.assertEqual(both.node.size, 8)
-        np.testing.assert_array_equal(both.connection, np.arange(8))
-        path = self.folder / "m.vtu"
-        both.write(path)
-        both.write(path, {"displacement": np.ones((8, 2)), "gap": np.arange(8)}, {"body": [0, 1]})
-        text = path.read_bytes()
-        for name in (b'"displacement"', b'"gap"', b'"body"'):
-            self.assertIn(name, text)
-        self.assertRaises(fuge.InputError, both.write, path, {"gap": np.arange(7)})
-        self.assertRaises(fuge.InputError, fuge.Mesh.from_arrays, [[0, 0]], [[0]], "CPE4")
-
-
 if __name__ == "__main__":
     unittest.main()
