@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
-from fuge.formats.bulk_words import HARMLESS_COMMANDS, check_parameter
+from fuge.formats.bulk_words import EXECUTIVE_COMMANDS, HARMLESS_COMMANDS, check_parameter
 from fuge.formats.keyword import abbreviates
 from fuge.formats.text import Place, Reason, label, located, quoted, refusal
 
@@ -38,7 +37,10 @@ class Subcase:
         return f"{words} ({name})" if words else name
 
 
-def split_deck(lines: list[tuple[Place, str]]) -> tuple[list[Subcase] | None, list[tuple[Place, str]]]:
+_Lines = list[tuple[Place, str]]
+
+
+def split_deck(lines: _Lines) -> tuple[list[Subcase] | None, _Lines]:
     """The subcases, of which the first one is what all of them select, and the lines of bulk data.
 
     None in place of subcases: the deck is bulk data alone.
@@ -52,14 +54,20 @@ def split_deck(lines: list[tuple[Place, str]]) -> tuple[list[Subcase] | None, li
     return None, lines
 
 
-def _subcases(lines: Sequence[tuple[Place, str]], end: Place) -> list[Subcase]:
-    """Read the lines below CEND; without CEND all of them are case control."""
-    ends = [k for k, (_, line) in enumerate(lines) if _END_OF_EXECUTIVE.match(line)]
+def _subcases(lines: _Lines, end: Place) -> list[Subcase]:
+    """Read executive control, which ends with CEND where there is one, and case control."""
     reader = _Reader(end)
-    for place, line in lines[ends[0] + 1 if ends else 0 :]:
+    reader.is_executive = any(_END_OF_EXECUTIVE.match(line) for _, line in lines)
+    for place, line in lines:
         with located(place):
             reader.read(place, line)
-    _check_equations(reader.subcases)
+    for subcase in reader.subcases[2:]:
+        if subcase.sets.get("MPC") != reader.subcases[1].sets.get("MPC"):
+            raise refusal(
+                subcase.place,
+                f"subcase {subcase.number} has other equations, MPC, than the first one: a stiffness matrix serves "
+                "those of one set, so read them as decks of their own",
+            )
     return reader.subcases
 
 
@@ -67,7 +75,7 @@ class _Reader:
     def __init__(self, place: Place) -> None:
         self.subcases = [Subcase(place)]
         # The line above ends with a comma; below OUTPUT(PLOT) and OUTPUT(XYPLOT) come commands of pictures.
-        self._continues = self._plots = False
+        self._continues = self._plots = self.is_executive = False
 
     def read(self, place: Place, line: str) -> None:
         if self._continues:
@@ -76,6 +84,9 @@ class _Reader:
         match = _COMMAND.fullmatch(line)
         command, option, value = match.groups("") if match else (quoted(line.strip()), "", "")
         command, option = command.upper(), option.upper()
+        if self.is_executive:
+            self._read_executive(command, line)
+            return
         words = next((word for word in _WORDS if abbreviates(command, word, 4)), None)
         if words is not None:
             self.subcases[-1].words[words] = value
@@ -87,11 +98,16 @@ class _Reader:
             self._check(command, option, value.upper())
             self._continues = line.endswith(",")
 
+    def _read_executive(self, command: str, line: str) -> None:
+        if command not in EXECUTIVE_COMMANDS:
+            raise Reason(f"{command} above CEND could change the answer, and is not read: take it out if it does not")
+        self.is_executive = command != "CEND"
+        self._continues = line.endswith(",")
+
     def _begin(self, place: Place, number: int) -> None:
         if any(subcase.number == number for subcase in self.subcases):
             raise Reason(f"subcase {number} is defined twice")
-        common = self.subcases[0]
-        self.subcases.append(replace(common, place=place, number=number, sets=dict(common.sets), words={}))
+        self.subcases.append(Subcase(place, number, dict(self.subcases[0].sets)))
 
     def _check(self, command: str, option: str, value: str) -> None:
         """Refuse what could change the answer."""
@@ -102,8 +118,8 @@ class _Reader:
             self._plots = "PLOT" in option or "XY" in option
         elif not (self._plots or _is_harmless(command, option, value)):
             raise Reason(
-                f"{command} is not read: give each load case as a SUBCASE with LOAD = and SPC =, and take out what "
-                "has no say in it"
+                f"{command} is not read: give each load case as a SUBCASE with LOAD = and SPC =, and leave out what "
+                "only asks for output"
             )
 
 
@@ -115,14 +131,3 @@ def _is_harmless(command: str, option: str, value: str) -> bool:
     if abbreviates(command, "NLPARM", 4):
         return "LGDISP" not in option
     return any(abbreviates(command, word, 4) for word in HARMLESS_COMMANDS)
-
-
-def _check_equations(subcases: list[Subcase]) -> None:
-    """Refuse different sets of equations, MPC: one stiffness matrix serves all subcases."""
-    for subcase in subcases[2:]:
-        if subcase.sets.get("MPC") != subcases[1].sets.get("MPC"):
-            raise refusal(
-                subcase.place,
-                f"subcase {subcase.number} has other equations, MPC, than the first one: a stiffness matrix serves "
-                "those of one set, so read them as decks of their own",
-            )

@@ -12,7 +12,7 @@ from fuge.formats.bulk_links import LinkCards
 from fuge.formats.bulk_loads import LoadCards
 from fuge.formats.bulk_nodes import NodeCards
 from fuge.formats.bulk_words import CONTACT_CARDS, HARMLESS_CARDS, UNREAD_LOADS, check_parameter
-from fuge.formats.text import PathLike, Place, Reason
+from fuge.formats.text import PathLike, Place, Reason, quoted, refusal
 
 
 def read_bulk_deck(path: PathLike) -> Deck:
@@ -26,6 +26,8 @@ def read_bulk_deck(path: PathLike) -> Deck:
     """
     deck = Deck()
     subcases, bulk = split_deck(list(read_lines(path, deck.paths)))
+    if not bulk:
+        raise refusal(path, "there is no bulk data above ENDDATA or the end of the file")
     nodes = NodeCards()
     links, loads = LinkCards(nodes), LoadCards(nodes)
     _read(read_cards(bulk), {**nodes.readers, **links.readers, **loads.readers, **_readers(loads)})
@@ -42,6 +44,9 @@ def read_bulk_deck(path: PathLike) -> Deck:
     return deck
 
 
+# The last field that each card may have: what stands behind it belongs to another one.
+_LAST_FIELD = dict(CBUSH1D=5, CGAP=8, CORD2R=11, FORCE=7, GRDSET=8, GRID=8, MOMENT=7, PARAM=3, PGAP=11, SPC=7, SPCD=7)
+
 _Readers = dict[str, Callable[[Card], None]]
 
 
@@ -50,6 +55,8 @@ def _read(cards: Iterable[Card], readers: _Readers) -> None:
         if card.name in HARMLESS_CARDS:
             continue
         try:
+            for k in card.filled(_LAST_FIELD.get(card.name, len(card.fields)) + 1):
+                raise Reason(f"there is no field {k}, but {quoted(card.word(k))} stands there")
             readers.get(card.name, _refuse)(card)
         except Reason as reason:
             raise card.refuse(reason) from None

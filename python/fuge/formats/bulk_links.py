@@ -90,7 +90,9 @@ class LinkCards:
                 f"KB, the stiffness of the open gap, is above {_OPEN_STIFFNESS:g} KA: make it a spring of its own, so "
                 "that it is in the stiffness matrix"
             )
-        # A closed gap without friction slides whatever KT is.
+        # A closed gap without friction slides, whatever KT is.
+        if card.word(6) != "AUTO":
+            card.number(6, "KT", 0.0)
         for k, name in [(7, "MU1"), (8, "MU2")]:
             if card.word(k) in ("STICK", "FREEZE") or card.number(k, name, 0.0) != 0.0:
                 raise Reason(f"{name} is not zero: fuge has no friction, a closed gap slides freely")
@@ -102,7 +104,7 @@ class LinkCards:
         table = None
         for k in range(LINE_FIELDS + 1, len(card.fields) + 1, LINE_FIELDS):
             what, how = card.word(k), card.word(k + 1)
-            if what in ("", "DAMPER"):
+            if what == "DAMPER" or what == how == "":
                 continue
             if what != "SPRING" or how == "EQUAT":
                 raise Reason(
@@ -176,16 +178,11 @@ class LinkCards:
         for i, number in enumerate((element.node_a, element.node_b)):
             if number == 0:
                 continue
-            node = self._nodes.find(number)
+            node = self._nodes.find_basic(number, "one-way elements")
             if node.position_system != 0 and needed:
                 raise Reason(
                     f"GRID {number} has the coordinate system CP = {node.position_system}: positions are read in the "
                     "basic system, 0"
-                )
-            if node.system != 0:
-                raise Reason(
-                    f"GRID {number} has the displacement system CD = {node.system}: one-way elements are read at nodes "
-                    "of the basic system, 0"
                 )
             position[i] = node.position
         return position

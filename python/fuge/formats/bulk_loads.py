@@ -149,7 +149,10 @@ class LoadCards:
                 held.hold((number, direction), 0.0, node.place)
         for _, _, entry in self._supports.selected(subcase):
             with located(entry.place):
-                for dof, value in self._values(entry):
+                values = list(self._values(entry))
+                if not values:
+                    raise Reason("the deck has none of the nodes that the card holds")
+                for dof, value in values:
                     held.hold(dof, value, entry.place)
         return held
 
@@ -169,11 +172,8 @@ class LoadCards:
         if not entry.directions:
             raise Reason(f"{entry.card} is not read: give its forces at nodes by FORCE and MOMENT")
         for node, directions in self._nodes.existing(entry.nodes, entry.directions):
-            if entry.card in _FORCES and (system := self._nodes.grids[node].system) != 0:
-                raise Reason(
-                    f"GRID {node} has the displacement system CD = {system}: loads are read at nodes of the basic "
-                    "system, 0"
-                )
+            if entry.card in _FORCES:
+                self._nodes.find_basic(node, "loads")
             for direction, value in zip(directions, entry.values):
                 yield (node, direction), value
 

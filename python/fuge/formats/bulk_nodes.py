@@ -79,6 +79,16 @@ class NodeCards:
             raise Reason(f"the deck has no GRID {number}")
         return self.grids[number]
 
+    def find_basic(self, number: int, what: str) -> Node:
+        """The same, but Reason also if its displacements are not in the basic system, in which `what` is read."""
+        node = self.find(number)
+        if node.system != 0:
+            raise Reason(
+                f"GRID {number} has the displacement system CD = {node.system}: {what} are read at nodes of the basic "
+                "system, 0"
+            )
+        return node
+
 
 def define(table: dict[int, _T], number: int, entry: _T, what: str) -> None:
     """Enter what a card defines; Reason if its number has another meaning already."""

@@ -61,6 +61,12 @@ _SWITCHES = {
     "INREL": (("", "0"), "inertia relief is not read: hold the structure by SPC"),
 }
 
+EXECUTIVE_COMMANDS = frozenset(
+    """
+    APP ASSIGN CEND DIAG DOMAINSOLVER ECHO GEOMCHECK ID INIT KILL MAXLINES MODEL_CHECK NASTRAN SOL SPARSESOLVER TIME
+    """.split()
+)
+
 # Output, solvers and words of a case; longer ones may be abbreviated to four letters.
 HARMLESS_COMMANDS = tuple(
     """
