@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fuge import _arrays
 from fuge.errors import InputError, Status
-from fuge.formats.text import Place, Reason
+from fuge.formats.text import PathLike, Place, Reason
 from fuge.links import Links
 from fuge.stiffness_rows import RowNames, StiffnessFile
 
@@ -151,6 +151,53 @@ class Deck:
     @property
     def limit(self) -> NDArray[np.float64]:
         return np.array([link.limit for link in self._links], dtype=float)
+
+    def read_links(self, path: PathLike) -> None:
+        """Add the links of a table.
+
+        Columns have the names node_a, node_b, x, y, z, gap, play, stiffness, limit and name, in this order or in that
+        of a heading. Node 0 is the ground; x, y, z is a direction of any length, along which the link opens. Blank or
+        missing from gap on: no gap, one-sided, rigid, no limit, link and its number; so are -1 as a play or limit and 0
+        as a stiffness. Columns stand between commas, semicolons or tabs, else between blanks; comments go from # on.
+
+        Raises
+        ------
+        FileError
+            The message has the file, the line and the reason; the deck is unchanged.
+        """
+        from fuge.formats.deck_tables import read_links
+
+        read_links(self, path)
+
+    def read_supports(self, path: PathLike) -> None:
+        """Add the supports of a table to the model, for cases to come, and to all load cases.
+
+        Columns node, directions, such as xyz or 123, and displacement or rotation, 0 if it is blank; in this order or
+        in that of a heading, as of :meth:`read_links`.
+
+        Raises
+        ------
+        FileError
+            As of :meth:`read_links`; also if a support contradicts one of the deck.
+        """
+        from fuge.formats.deck_tables import read_supports
+
+        read_supports(self, path)
+
+    def read_cases(self, path: PathLike) -> None:
+        """Add the load cases of a table, with the supports of the model.
+
+        Lines node.direction, such as 17.3, and a force or a moment for each case; a heading names the cases, behind a
+        word for the first column. Separators are those of :meth:`read_links`.
+
+        Raises
+        ------
+        FileError
+            As of :meth:`read_links`.
+        """
+        from fuge.formats.deck_tables import read_cases
+
+        read_cases(self, path)
 
     def links(self, stiffness: StiffnessFile) -> Links:
         """The links with their laws and names, for :meth:`Body.set_links`; link k is ``link_names[k]``.

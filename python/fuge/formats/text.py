@@ -6,6 +6,8 @@ import math
 import os
 import re
 import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import NamedTuple, Union
 
@@ -42,6 +44,15 @@ def refusal(place: Place | PathLike, reason: object) -> FileError:
     """The error that a file, or a line of it, cannot be read for this reason."""
     where = place if isinstance(place, Place) else quoted_path(place)
     return FileError(f"{where}: {reason}", Status.ERR_FILE)
+
+
+@contextmanager
+def located(place: Place | PathLike, name: str = "") -> Iterator[None]:
+    """Make a FileError of a Reason: it has this place, and begins with a name."""
+    try:
+        yield
+    except Reason as reason:
+        raise refusal(place, f"{name}: {reason}" if name else reason) from None
 
 
 def quoted_path(path: PathLike) -> str:
