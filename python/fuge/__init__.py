@@ -86,7 +86,7 @@ What can go wrong: each error and warning has a Status and a message that says h
     Error: InputError, MatrixError, EquilibriumError, LimitError, UnsupportedError, CallOrderError, FileError,
         OutOfMemoryError, CallbackError, CancelledError
     Warning: ResidualWarning, NotUniqueWarning, IllConditionedWarning, GridWarning, PairsWarning,
-        NoContactWarning, CasesWarning, NotProvedWarning, KinkWarning, UnreachableWarning
+        NoContactWarning, FileWarning, CasesWarning, NotProvedWarning, KinkWarning, UnreachableWarning
 """
 
 # "as" exports a name, as __all__ would; but with that help(fuge) would have the whole text of each.
@@ -107,6 +107,7 @@ from fuge.errors import (
     EquilibriumError as EquilibriumError,
     Error as Error,
     FileError as FileError,
+    FileWarning as FileWarning,
     GridWarning as GridWarning,
     IllConditionedWarning as IllConditionedWarning,
     InputError as InputError,
