@@ -217,7 +217,7 @@ class Deck:
         """
         if not self._links:
             raise InputError("the deck has no one-way link", Status.ERR_SIZE)
-        rows = RowNames(stiffness)
+        rows = stiffness.row_names
         links = Links()
         for link in self._links:
             dof_a = self._rows_of(link, link.node_a, rows)
@@ -258,7 +258,7 @@ class Deck:
 
     def loads(self, stiffness: StiffnessFile) -> NDArray[np.float64]:
         """External forces of the load cases, (cases, rows). Forces at supports go into these, and have no effect."""
-        rows = RowNames(stiffness)
+        rows = stiffness.row_names
         loads = np.zeros((len(self._cases), len(rows)))
         for k, case in enumerate(self._cases):
             for dof, load in case.loads.items():
@@ -277,7 +277,7 @@ class Deck:
         number = _arrays.integer("case", case)
         if not 0 <= number < len(self._cases):
             raise InputError(f"load case {number} is outside 0 .. {len(self._cases) - 1}", Status.ERR_SIZE)
-        rows, chosen = RowNames(stiffness), self._cases[number]
+        rows, chosen = stiffness.row_names, self._cases[number]
         held = list(_held_rows(chosen, rows))
         dof = np.array([row for row, _ in held], dtype=np.intc)
         return dof, np.array([displacement for _, displacement in held], dtype=float)
