@@ -105,7 +105,9 @@ class Rows(unittest.TestCase):
             with self.subTest(words=words):
                 self.refused(fuge.InputError, words, call, *arguments)
         deck._links = [DeckLink("across", 1, 0, (0.0, 1.0, 0.0), place=PLACE)]
-        self.refused(fuge.InputError, '"m.inp", line 3, across: no row of the matrix moves it', deck.links, unit_matrix())
+        self.refused(
+            fuge.InputError, '"m.inp", line 3, across: no row of the matrix moves it', deck.links, unit_matrix()
+        )
 
     def test_eliminated_rows(self):
         """A row that is missing for another reason than a support, such as an equation, must not become the ground."""

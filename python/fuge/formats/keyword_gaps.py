@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fuge.deck import DeckLink
-from fuge.formats.keyword import split_items
-from fuge.formats.text import Place, Reason, value
-
-GAP_TYPES = ("GAPUNI", "GAPCYL", "GAPSPHER")
+from fuge.errors import InputError
+from fuge.formats.keyword import Block, split_items
+from fuge.formats.keyword_rules import GAP_TYPES
+from fuge.formats.text import PathLike, Place, Reason, quoted, refusal, value
+from fuge.mesh import Mesh
 
 # Nodes whose distance is below this fraction of their largest coordinate coincide: the digits of a deck give the line
 # between them no direction.
@@ -21,6 +22,69 @@ _COINCIDENT = 1e-6
 _COLUMNS = 7
 
 _Vector = NDArray[np.float64]
+
+
+class Gaps:
+    """Makes links of the gap elements of a mesh, and appends them to a list."""
+
+    def __init__(self, mesh: Mesh, links: list[DeckLink]) -> None:
+        self._mesh, self._links = mesh, links
+        self._with_gap: set[int] = set()
+
+    def read(self, block: Block, parameters: dict[str, str]) -> None:
+        """Read a *GAP: one data line for the elements of a set.
+
+        Raises
+        ------
+        FileError
+        """
+        name = parameters.get("ELSET", "")
+        if not name:
+            raise block.refuse("*GAP needs ELSET = and a name")
+        try:
+            elements = self._mesh.element_set(name).tolist()
+        except InputError:
+            raise block.refuse(f"*GAP: the element set {quoted(name)} is not defined") from None
+        if len(block.lines) != 1:
+            raise block.refuse(
+                "*GAP: its data line is missing" if not block.lines else "*GAP has more than one data line"
+            )
+        try:
+            gap = read_gap(split_items(block.lines[0])[0])
+            self._links += [self._link(element, gap, block.where(0)) for element in elements]
+        except Reason as reason:
+            raise block.refuse(f"*GAP: {reason}", 0) from None
+
+    def _link(self, index: int, gap: Gap, place: Place) -> DeckLink:
+        mesh = self._mesh
+        kind = str(mesh.element_types[index])
+        name = f"{kind} {mesh.element[index]}"
+        nodes = mesh.connection[mesh.first[index] : mesh.first[index + 1]]
+        if kind not in GAP_TYPES:
+            raise Reason(f"{name} is no gap element")
+        if index in self._with_gap:
+            raise Reason(f"{name} has a *GAP already")
+        if nodes.size != 2:
+            raise Reason(f"{name} has {nodes.size} nodes: a gap has two")
+        self._with_gap.add(index)
+        try:
+            direction, clearance = _opening(kind, mesh.position[nodes], gap)
+        except Reason as reason:
+            raise Reason(f"{name}: {reason}") from None
+        (a, b), (x, y, z) = mesh.node[nodes].tolist(), direction.tolist()
+        return DeckLink(name, a, b, (x, y, z), clearance, compliance=gap.compliance, place=place)
+
+    def check(self, path: PathLike) -> None:
+        """Refuse gap elements without *GAP.
+
+        Raises
+        ------
+        FileError
+        """
+        for index in np.flatnonzero(np.isin(self._mesh.element_types, GAP_TYPES)).tolist():
+            if index not in self._with_gap:
+                name = f"{self._mesh.element_types[index]} {self._mesh.element[index]}"
+                raise refusal(path, f"{name} has no *GAP with its element set")
 
 
 class Gap(NamedTuple):
@@ -35,7 +99,7 @@ class Gap(NamedTuple):
     compliance: float
 
 
-def read_gap(line: str) -> Gap:
+def read_gap(items: list[str]) -> Gap:
     """Clearance, three direction cosines, a column without meaning, then CalculiX's stiffness and force at infinity.
 
     That force only rounds the corner of the law. The fifth column is Abaqus' area, which makes a pressure of the
@@ -44,9 +108,8 @@ def read_gap(line: str) -> Gap:
     Raises
     ------
     Reason
-        The line is no data line of *GAP, or has a number in its fifth column.
+        They are no data line of *GAP, or it has a number in its fifth column.
     """
-    items, _ = split_items(line)
     if len(items) > _COLUMNS:
         raise Reason(f"more than {_COLUMNS} columns of *GAP")
     numbers = [value(item) if item else 0.0 for item in items] + [0.0] * (_COLUMNS - len(items))
@@ -68,62 +131,33 @@ def read_gap(line: str) -> Gap:
     return Gap(numbers[0], direction, compliance)
 
 
-def gap_link(kind: str, element: int, nodes: tuple[int, int], position: _Vector, gap: Gap, place: Place) -> DeckLink:
-    """The link of a gap element, that of GAPCYL and GAPSPHER for small displacements.
-
-    Parameters
-    ----------
-    kind : str
-        One of GAP_TYPES.
-    element, nodes : int, (int, int)
-        Their numbers.
-    position : ndarray, shape (2, 3)
-        Of the nodes; length.
-    gap : Gap
-    place : Place
-        Of the data line.
-
-    Raises
-    ------
-    Reason
-        The element has no direction.
-    """
-    direction, clearance = _uniaxial(position, gap) if kind == "GAPUNI" else _round(kind, position, gap)
-    x, y, z = direction.tolist()
-    return DeckLink(f"{kind} {element}", *nodes, (x, y, z), gap=clearance, compliance=gap.compliance, place=place)
-
-
-def _uniaxial(position: _Vector, gap: Gap) -> tuple[_Vector, float]:
-    if gap.direction.any():
+def _opening(kind: str, position: _Vector, gap: Gap) -> tuple[_Vector, float]:
+    """Direction and gap of a link between two positions; of GAPCYL and GAPSPHER those for small displacements."""
+    given = gap.direction.any()
+    if kind == "GAPUNI" and given:
         return gap.direction, gap.clearance
-    direction, length = _between(position, gap.direction)
-    if length == 0.0:
-        raise Reason("its nodes coincide, so that it has no direction: give its direction cosines")
-    return direction, gap.clearance
-
-
-def _round(kind: str, position: _Vector, gap: Gap) -> tuple[_Vector, float]:
-    """A tube or a ball in another one with a clearance from 0 on, else tubes or balls beside each other."""
-    axis = gap.direction if kind == "GAPCYL" else np.zeros(3)
-    if kind == "GAPCYL" and not axis.any():
+    if kind == "GAPCYL" and not given:
         raise Reason("the direction cosines of its axis are missing")
-    direction, length = _between(position, axis)
+    direction, length = _between(position, gap.direction if kind == "GAPCYL" else np.zeros(3))
     if length == 0.0:
-        raise Reason(
-            "its nodes coincide, or are on one line along its axis, so that it has no direction at first: use GAPUNI"
-        )
+        reason = "its nodes coincide, or are on one line along its axis, so that it has no direction"
+        raise Reason(f"{reason}: use GAPUNI with direction cosines")
+    if kind == "GAPUNI":
+        return direction, gap.clearance
     if gap.clearance >= 0.0:
         return -direction, gap.clearance - length
     return direction, length + gap.clearance
 
 
 def _between(position: _Vector, axis: _Vector) -> tuple[_Vector, float]:
-    """Unit vector and distance from node to node across an axis; zero if what is left may be rounding."""
-    largest = float(np.abs(position).max())
-    scaled = position / (largest or 1.0)
+    """Unit vector and distance from node to node across an axis; the distance is 0 if it may be rounding."""
+    largest = np.abs(position).max()
+    # A power of two, which neither rounds nor overflows.
+    scale = math.ldexp(1.0, math.frexp(largest)[1] - 1)
+    scaled = position / scale
     distance = scaled[1] - scaled[0]
     distance = distance - (distance @ axis) * axis
     length = math.hypot(*distance)
-    if length <= _COINCIDENT:
-        return np.zeros(3), 0.0
-    return distance / length, length * largest
+    if length * scale <= _COINCIDENT * largest:
+        return distance, 0.0
+    return distance / length, length * scale

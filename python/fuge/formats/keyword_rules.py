@@ -1,15 +1,21 @@
-"""Keywords of Abaqus and CalculiX that a deck with gaps may have, and what they may say of themselves.
+"""What decks of Abaqus and CalculiX may have beside the gaps, supports and loads that are read.
 
-A keyword that is not known here to be harmless for a linear static problem could change the answer, and is refused.
+What is not known here to be harmless for a linear static problem could change the answer, and is refused.
 """
 
 from __future__ import annotations
 
-from fuge.errors import FileError
-from fuge.formats.keyword import Block, complete, squeezed
+import re
 
-# Nodes, elements and sets are read with the mesh.
-_READ = "BOUNDARY CLOAD ELEMENT ELSET ENDSTEP GAP NODE NSET STEP SURFACE"
+from fuge.errors import FileError
+from fuge.formats.keyword import Block, complete, split_items, squeezed
+from fuge.formats.text import quoted
+
+GAP_TYPES = ("GAPUNI", "GAPCYL", "GAPSPHER")
+
+MESH = frozenset("ELEMENT ELSET NODE NSET SURFACE".split())
+
+_READ = "BOUNDARY CLOAD ENDSTEP GAP STEP"
 
 # Linear materials, sections, constraints and springs are in the stiffness matrix; masses and dampers have no effect.
 _MODEL = """
@@ -47,7 +53,10 @@ _OTHER_PROCEDURES = """
 
 PROCEDURES = STATIC | PERTURBATIONS | frozenset(_OTHER_PROCEDURES.split())
 
-_ALLOWED = PROCEDURES | frozenset((_READ + _MODEL + _OUTPUT_AND_SOLVER).split())
+_ALLOWED = MESH | PROCEDURES | frozenset((_READ + _MODEL + _OUTPUT_AND_SOLVER).split())
+
+_UNKNOWN = "is not read, and could change the answer: leave it out if it does not"
+_STRUTS = "give struts and cables as GAPUNI with a stiffness, or in a table of links"
 
 # Why keywords that many decks have are refused.
 _REASONS = {
@@ -58,12 +67,8 @@ _REASONS = {
     "is not read: give its forces at nodes by *CLOAD": """
         BASEMOTION CFLUX DFLUX DLOAD DSLOAD FIELD FILM INERTIARELIEF RADIATE SLOAD SWELLING TEMPERATURE
     """,
-    "is not read here: give struts and cables as GAPUNI with a stiffness, or in a table of links": """
-        CONNECTORLOCK CONNECTORSTOP NOCOMPRESSION NOTENSION
-    """,
-    "is not read here: the structure is linear but for its links": """
-        CREEP HYPERELASTIC HYPERFOAM IMPERFECTION PLASTIC USERMATERIAL VISCOELASTIC
-    """,
+    f"is not read here: {_STRUTS}": "CONNECTORLOCK CONNECTORSTOP NOCOMPRESSION NOTENSION",
+    "is not read here: materials are linear": "CREEP HYPERELASTIC HYPERFOAM PLASTIC USERMATERIAL VISCOELASTIC",
     "is not read: gaps with friction are not, fuge has no friction": "FRICTION",
     "is not read here: directions are x, y and z": "TRANSFORM",
 }
@@ -73,6 +78,7 @@ _PARAMETERS = {
     "BOUNDARY": "OP TYPE",
     "CLOAD": "OP",
     "ELASTIC": "DEPENDENCIES MODULI TYPE",
+    "ELEMENT": "ELSET INPUT TYPE",
     "GAP": "ELSET",
     "INITIALCONDITIONS": "TYPE",
     "MATERIAL": "NAME RTOL",
@@ -98,6 +104,15 @@ _VALUES = {
     ("STEP", "NLGEOM"): ("NO", "YES"),
 }
 
+# Solids, plates, shells, membranes, bars, beams, springs, dampers, masses and rigid bodies.
+_LINEAR_ELEMENT = re.compile(
+    r"C3D|CPS|CPE|CAX|CGAX|SAX|MAX|MGAX|M3D|S[34689]|SC[68]|STRI|SFM|US[34]|T[23]D|B[23][1-4]|PIPE[23]|ELBOW|SPRING|"
+    r"DASHPOT|MASS|ROTARYI|R2D|R3D|RAX|RB[23]D|DCOUP"
+)
+
+# Constraints that are equations; blank or 0 where the nodes of one go on.
+_LINEAR_CONSTRAINTS = ("", "0", "BEAM", "LINEAR", "LINK", "MEANROT", "PIN", "PLANE", "QUADRATIC", "STRAIGHT", "TIE")
+
 # What to do instead of a parameter that is not read.
 _REMEDIES = {
     "BOUNDARY": ": write the values at the end of the step",
@@ -107,41 +122,51 @@ _REMEDIES = {
 }
 
 
-def check_keyword(block: Block) -> None:
-    """Refuse a keyword that is not known to be harmless.
-
-    Raises
-    ------
-    FileError
-    """
-    if block.keyword in _ALLOWED:
-        return
-    unknown = "is not read, and could change the answer: leave it out if it does not"
-    reason = next((text for text, words in _REASONS.items() if block.keyword in words.split()), unknown)
-    raise block.refuse(f"*{block.keyword} {reason}" if block.keyword else "data stand before the first keyword")
-
-
 def parameters_of(block: Block) -> dict[str, str]:
     """The parameters of a keyword, their names written out, and their values where only some words are allowed.
 
     Raises
     ------
     FileError
-        A parameter or its value is not known to be harmless.
+        The keyword, a parameter or a value is not known to be harmless.
     """
-    names = _PARAMETERS.get(block.keyword)
+    keyword = block.keyword
+    if keyword not in _ALLOWED:
+        reason = next((text for text, words in _REASONS.items() if keyword in words.split()), _UNKNOWN)
+        raise block.refuse(f"*{keyword} {reason}" if keyword else "data stand before the first keyword")
+    names, remedy = _PARAMETERS.get(keyword), _REMEDIES.get(keyword, "")
     if names is None:
         return block.parameters
-    remedy = _REMEDIES.get(block.keyword, "")
     try:
         found = block.named(names.split())
     except FileError as refused:
         raise FileError(refused.message + remedy, refused.status) from None
     for name, value in found.items():
-        values = _VALUES.get((block.keyword, name), ())
-        if values and value:
-            word = complete(squeezed(value), values)
+        words = _VALUES.get((keyword, name))
+        if words and value:
+            word = complete(squeezed(value), words)
             if word is None:
-                raise block.refuse(f"*{block.keyword}: {name}={squeezed(value)} is not read{remedy}")
+                raise block.refuse(f"*{keyword}: {name}={squeezed(value)} is not read{remedy}")
             found[name] = word
     return found
+
+
+def check_element(block: Block, parameters: dict[str, str]) -> None:
+    """Refuse connectors, gaskets and other elements that may not be linear."""
+    kind = squeezed(parameters.get("TYPE", ""))
+    if kind not in GAP_TYPES and not _LINEAR_ELEMENT.match(kind):
+        raise block.refuse(f"elements of type {quoted(kind)} are not read here: of gaps {', '.join(GAP_TYPES)} are")
+
+
+def check_material(block: Block, parameters: dict[str, str]) -> None:
+    """Refuse materials of CalculiX for one sign."""
+    if parameters.get("NAME", "").upper().startswith(("COMPRESSION_ONLY", "TENSION_ONLY")):
+        raise block.refuse(f"materials for one sign only are not read: {_STRUTS}")
+
+
+def check_constraint(block: Block, parameters: dict[str, str]) -> None:
+    """Refuse constraints that may be no linear equations."""
+    for index, line in enumerate(block.lines):
+        kind = split_items(line)[0][0].upper()
+        if kind not in _LINEAR_CONSTRAINTS:
+            raise block.refuse(f"*MPC of type {quoted(kind)} is not read: it may be no linear equation", index)
