@@ -85,7 +85,7 @@ class _Reader:
         self._names: set[str] = set()
         # OP of the first *BOUNDARY and of the first *CLOAD of the step.
         self._first_op: dict[str, str] = {}
-        # What this step, or an earlier one that handed it on, has that a load case must not have.
+        # What this step, or an earlier one that handed it on, has that a load case must not have; it may become none.
         self._unread: FileError | None = None
         # Where the first load case with large displacements begins.
         self._large: Place | None = None
@@ -109,16 +109,11 @@ class _Reader:
         try:
             parameters = rules.parameters_of(block)
         except FileError as refused:
-            self._refuse(refused)
-        else:
-            if block.keyword in self._actions:
-                self._actions[block.keyword](block, parameters)
-
-    def _refuse(self, refused: FileError) -> None:
-        """Refuse the model, or the load case that the present step may become: its procedure may follow."""
-        if self._step is None:
-            raise refused
-        self._unread = self._unread or refused
+            if self._step is None or block.keyword in rules.MODEL:
+                raise
+            self._unread, parameters = self._unread or refused, {}
+        if block.keyword in self._actions:
+            self._actions[block.keyword](block, parameters)
 
     def _begin_step(self) -> None:
         self._end_step()
@@ -138,7 +133,8 @@ class _Reader:
             step.large = block.place
         if "PERTURBATION" in parameters:
             step.perturbation = True
-            self._refuse(block.refuse("a *STEP with PERTURBATION is not read: contact depends on the whole load"))
+            reason = "a *STEP with PERTURBATION is not read: contact depends on the whole load"
+            self._unread = self._unread or block.refuse(reason)
 
     def _set_procedure(self, block: Block) -> None:
         if self._step is None:
@@ -220,7 +216,8 @@ class _Reader:
             return [number]
         name = unquoted(word)
         try:
-            return self._mesh.node[self._mesh.node_set(name)].tolist()
+            numbers: list[int] = self._mesh.node[self._mesh.node_set(name)].tolist()
+            return numbers
         except InputError:
             raise Reason(f"the set of nodes {quoted(name)} is not defined") from None
 

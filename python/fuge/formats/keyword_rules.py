@@ -56,22 +56,25 @@ PROCEDURES = STATIC | PERTURBATIONS | frozenset(_OTHER_PROCEDURES.split())
 _ALLOWED = MESH | PROCEDURES | frozenset((_READ + _MODEL + _OUTPUT_AND_SOLVER).split())
 
 _UNKNOWN = "is not read, and could change the answer: leave it out if it does not"
+_UNREAD_LOAD = "is not read: give its forces at nodes by *CLOAD"
 _STRUTS = "give struts and cables as GAPUNI with a stiffness, or in a table of links"
 
-# Why keywords that many decks have are refused.
+_UNREAD_LOADS = "BASEMOTION CFLUX DFLUX DLOAD DSLOAD FIELD FILM INERTIARELIEF RADIATE SLOAD SWELLING TEMPERATURE"
+
+# Why keywords of the model that many decks have are refused.
 _REASONS = {
     "is not read here: of contact the gap elements are, and each *STEP is a load case": """
         CHANGEFRICTION CLEARANCE CONTACT CONTACTINCLUSIONS CONTACTINTERFERENCE CONTACTPAIR LOADCASE MODELCHANGE
         RIGIDSURFACE SLIDELINE SURFACEBEHAVIOR SURFACEINTERACTION
-    """,
-    "is not read: give its forces at nodes by *CLOAD": """
-        BASEMOTION CFLUX DFLUX DLOAD DSLOAD FIELD FILM INERTIARELIEF RADIATE SLOAD SWELLING TEMPERATURE
     """,
     f"is not read here: {_STRUTS}": "CONNECTORLOCK CONNECTORSTOP NOCOMPRESSION NOTENSION",
     "is not read here: materials are linear": "CREEP HYPERELASTIC HYPERFOAM PLASTIC USERMATERIAL VISCOELASTIC",
     "is not read: gaps with friction are not, fuge has no friction": "FRICTION",
     "is not read here: directions are x, y and z": "TRANSFORM",
 }
+
+# A step that is no load case does not excuse these.
+MODEL = frozenset(" ".join([_MODEL, *_REASONS.values()]).split())
 
 # Parameters that are read, or change nothing, of keywords whose other ones could change the answer.
 _PARAMETERS = {
@@ -132,7 +135,8 @@ def parameters_of(block: Block) -> dict[str, str]:
     """
     keyword = block.keyword
     if keyword not in _ALLOWED:
-        reason = next((text for text, words in _REASONS.items() if keyword in words.split()), _UNKNOWN)
+        unread = _UNREAD_LOAD if keyword in _UNREAD_LOADS.split() else _UNKNOWN
+        reason = next((text for text, words in _REASONS.items() if keyword in words.split()), unread)
         raise block.refuse(f"*{keyword} {reason}" if keyword else "data stand before the first keyword")
     names, remedy = _PARAMETERS.get(keyword), _REMEDIES.get(keyword, "")
     if names is None:
@@ -146,7 +150,7 @@ def parameters_of(block: Block) -> dict[str, str]:
         if words and value:
             word = complete(squeezed(value), words)
             if word is None:
-                raise block.refuse(f"*{keyword}: {name}={squeezed(value)} is not read{remedy}")
+                raise block.refuse(f"*{keyword}: {name}={quoted(value)} is not read{remedy}")
             found[name] = word
     return found
 
