@@ -12,7 +12,7 @@ from fuge.formats import keyword_rules as rules
 from fuge.formats.keyword import Block, read_blocks, split_items, unquoted
 from fuge.formats.keyword_gaps import Gaps
 from fuge.formats.mesh_input import mesh_of
-from fuge.formats.text import PathLike, Place, Reason, label, quoted, value
+from fuge.formats.text import PathLike, Place, Reason, label, located, quoted, value
 from fuge.mesh import Mesh
 
 _DIRECTIONS = 6
@@ -223,12 +223,11 @@ class _Reader:
 
 
 def _read_lines(block: Block, read: Callable[[list[str], Place], None]) -> None:
-    """Read the columns of each data line; a Reason that it cannot be read becomes an error."""
+    """Read the columns of each data line."""
     for index, line in enumerate(block.lines):
-        try:
-            read(split_items(line)[0], block.where(index))
-        except Reason as reason:
-            raise block.refuse(f"*{block.keyword}: {reason}", index) from None
+        place = block.where(index)
+        with located(place, f"*{block.keyword}"):
+            read(split_items(line)[0], place)
 
 
 def _columns(items: list[str], most: int, names: str) -> list[str]:

@@ -12,7 +12,7 @@ from fuge.deck import DeckLink
 from fuge.errors import InputError
 from fuge.formats.keyword import Block, split_items
 from fuge.formats.keyword_rules import GAP_TYPES
-from fuge.formats.text import PathLike, Place, Reason, quoted, refusal, value
+from fuge.formats.text import PathLike, Place, Reason, located, quoted, refusal, value
 from fuge.mesh import Mesh
 
 # Nodes whose distance is below this fraction of their largest coordinate coincide: the digits of a deck give the line
@@ -46,14 +46,11 @@ class Gaps:
         except InputError:
             raise block.refuse(f"*GAP: the element set {quoted(name)} is not defined") from None
         if len(block.lines) != 1:
-            raise block.refuse(
-                "*GAP: its data line is missing" if not block.lines else "*GAP has more than one data line"
-            )
-        try:
+            raise block.refuse(f"*GAP needs one data line, and has {len(block.lines)}")
+        place = block.where(0)
+        with located(place, "*GAP"):
             gap = read_gap(split_items(block.lines[0])[0])
-            self._links += [self._link(element, gap, block.where(0)) for element in elements]
-        except Reason as reason:
-            raise block.refuse(f"*GAP: {reason}", 0) from None
+            self._links += [self._link(element, gap, place) for element in elements]
 
     def _link(self, index: int, gap: Gap, place: Place) -> DeckLink:
         mesh = self._mesh
@@ -108,16 +105,14 @@ def read_gap(items: list[str]) -> Gap:
     Raises
     ------
     Reason
-        They are no data line of *GAP, or it has a number in its fifth column.
+        They are no data line of *GAP, or have a number in the fifth column.
     """
     if len(items) > _COLUMNS:
         raise Reason(f"more than {_COLUMNS} columns of *GAP")
     numbers = [value(item) if item else 0.0 for item in items] + [0.0] * (_COLUMNS - len(items))
     if numbers[4] != 0.0:
-        raise Reason(
-            "a number in the fifth column is not read: the area of Abaqus has no meaning here, and the stiffness of "
-            "CalculiX is the sixth column"
-        )
+        reason = "a number in the fifth column is not read: the area of Abaqus has no meaning, and the stiffness of"
+        raise Reason(f"{reason} CalculiX is the sixth column")
     stiffness = numbers[5]
     if stiffness < 0.0:
         raise Reason("the stiffness is negative")
