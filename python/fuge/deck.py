@@ -92,15 +92,6 @@ class Deck:
 
     Attributes
     ----------
-    link_names, case_names : list of str
-        Card and number, such as CGAP 12; name of a case, such as SUBCASE 3.
-    node_a, node_b : ndarray of int, shape (links,)
-        Numbers of the nodes in the file; 0: the ground.
-    direction : ndarray, shape (links, 3)
-        Unit vectors.
-    gap, play, compliance, limit : ndarray, shape (links,)
-        Gap and distance of a second stop, length; of the link, length per force; of its force. Infinite play: no second
-        stop; infinite limit: none.
     paths : list of str
         All files that have been read.
     """
@@ -118,38 +109,47 @@ class Deck:
 
     @property
     def link_names(self) -> list[str]:
+        """Card and number, such as CGAP 12, or names of a table."""
         return [link.name for link in self._links]
 
     @property
     def case_names(self) -> list[str]:
+        """Such as SUBCASE 3, STEP 3, or the name of a step."""
         return [case.name for case in self._cases]
 
     @property
     def node_a(self) -> NDArray[np.intc]:
+        """Number of the first node of each link in the file; 0: the ground."""
         return np.array([link.node_a for link in self._links], dtype=np.intc)
 
     @property
     def node_b(self) -> NDArray[np.intc]:
+        """Number of the second node of each link in the file; 0: the ground."""
         return np.array([link.node_b for link in self._links], dtype=np.intc)
 
     @property
     def direction(self) -> NDArray[np.float64]:
+        """Unit vectors, shape (links, 3)."""
         return np.array([link.direction for link in self._links], dtype=float).reshape(-1, 3)
 
     @property
     def gap(self) -> NDArray[np.float64]:
+        """Gaps without load, length; negative: an interference."""
         return np.array([link.gap for link in self._links], dtype=float)
 
     @property
     def play(self) -> NDArray[np.float64]:
+        """Distances of a second stop, length; infinite: none."""
         return np.array([link.play for link in self._links], dtype=float)
 
     @property
     def compliance(self) -> NDArray[np.float64]:
+        """Of the links themselves, length per force; 0: rigid."""
         return np.array([link.compliance for link in self._links], dtype=float)
 
     @property
     def limit(self) -> NDArray[np.float64]:
+        """Limits of the forces; infinite: none."""
         return np.array([link.limit for link in self._links], dtype=float)
 
     def read_links(self, path: PathLike) -> None:
