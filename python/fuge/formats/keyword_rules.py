@@ -150,7 +150,8 @@ def parameters_of(block: Block) -> dict[str, str]:
         if words and value:
             word = complete(squeezed(value), words)
             if word is None:
-                raise block.refuse(f"*{keyword}: {name}={quoted(value)} is not read{remedy}")
+                reason = f"{name}={quoted(value)} is not read, only {', '.join(words)}"
+                raise block.refuse(f"*{keyword}: {reason}{remedy if name == 'TYPE' else ''}")
             found[name] = word
     return found
 
