@@ -159,6 +159,7 @@ class Decks(unittest.TestCase):
             ("2, PINNED, 3", "*BOUNDARY: more columns than node and name"),
             ("*CLOAD", "*CLOAD is needed in a *STEP"),
             ("*STATIC", "*STATIC is needed in a *STEP"),
+            ("*STEP/*VISCO/*BUCKLE", "*BUCKLE: the step has *VISCO already"),
             ("*STEP/*CLOAD, OP=OLD", '*CLOAD: OP="OLD" is not read, only MOD, NEW'),
             ("*STEP/*CLOAD/*CLOAD, OP=NEW", "*CLOAD: OP=NEW belongs to the first"),
             ("*STEP/*CLOAD/1, 3", "*CLOAD: the value is missing"),

@@ -67,8 +67,7 @@ class _Step:
     forces: Conditions
     unread: FileError | None
     large: Place | None = None
-    static: bool = False
-    other: bool = False
+    procedure: str = ""
     perturbation: bool = False
 
 
@@ -139,8 +138,9 @@ class _Reader:
     def _set_procedure(self, block: Block) -> None:
         if self._step is None:
             raise block.refuse(f"*{block.keyword} is needed in a *STEP")
-        self._step.static |= block.keyword in rules.STATIC
-        self._step.other |= block.keyword not in rules.STATIC
+        if self._step.procedure:
+            raise block.refuse(f"*{block.keyword}: the step has *{self._step.procedure} already")
+        self._step.procedure = block.keyword
         self._step.perturbation |= block.keyword in rules.PERTURBATIONS
 
     def _end_step(self) -> None:
@@ -148,7 +148,7 @@ class _Reader:
         step, self._step = self._step, None
         if step is None:
             return
-        if step.other and not step.static:
+        if step.procedure and step.procedure not in rules.STATIC:
             if step.perturbation:
                 self._held, self._forces, self._unread = step.held, step.forces, step.unread
             return
