@@ -27,7 +27,11 @@ _INDEX = re.compile(
 )
 
 
-class UsageError(Error):
+class CommandError(Error):
+    """An error whose message is in the words of the command, with numbers as tables have them."""
+
+
+class UsageError(CommandError):
     """An option that is unknown, has no sense, or does not go with another."""
 
     def __init__(self, reason: str) -> None:
@@ -43,7 +47,7 @@ def exit_code(failure: Error) -> int:
 
 def shown(failure: Error) -> str:
     """The message of an error for users of the command."""
-    return failure.message if isinstance(failure, (UsageError, FileError)) else counted_from_one(failure.message)
+    return failure.message if isinstance(failure, (CommandError, FileError)) else counted_from_one(failure.message)
 
 
 def counted_from_one(message: str) -> str:

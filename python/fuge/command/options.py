@@ -10,7 +10,6 @@ from typing import NamedTuple
 
 from fuge.command.errors import UsageError
 from fuge.command.option_table import INPUTS, NAMES, REPEATED, WITHOUT_VALUE
-from fuge.errors import FileError, Status
 from fuge.formats.text import Place, Reason, quoted_path, read_text, value
 
 # A word is like another one if this share of their letters is the same.
@@ -105,6 +104,15 @@ class Options:
         """The path that an option names; empty if it is not given."""
         return self.first(name).path() if self.has(name) else ""
 
+    def threads(self) -> int:
+        """The value of --threads; 0, all cores, without it."""
+        if not self.has("threads"):
+            return 0
+        setting = self.first("threads")
+        if re.fullmatch(r"\+?\d{1,9}", setting.value, re.ASCII) is None:
+            raise setting.refuse("a number of threads is needed, or 0 for all cores")
+        return int(setting.value)
+
     def _add(self, word: str, given: str, setting: Setting) -> None:
         where = setting.source[: -len(f"{word} {given}".strip())]
         if not is_option(word):
@@ -180,18 +188,3 @@ def _second_option(word: str, given: str, folder: str) -> str:
 def _suggestion(word: str) -> str:
     alike = difflib.get_close_matches(word.lstrip("-"), NAMES, 1, _ALIKE)
     return f" (did you mean --{alike[0]}?)" if alike else ""
-
-
-def threads(given: Options) -> int:
-    """The value of --threads; 0, all cores, without it."""
-    if not given.has("threads"):
-        return 0
-    setting = given.first("threads")
-    if re.fullmatch(r"\+?\d{1,9}", setting.value, re.ASCII) is None:
-        raise setting.refuse("a number of threads is needed, or 0 for all cores")
-    return int(setting.value)
-
-
-def size_error(path: str, shape: tuple[int, ...], wanted: str) -> FileError:
-    """The error that a matrix in a file has another shape than is wanted."""
-    return FileError(f"{quoted_path(path)}: a matrix of {shape[0]} x {shape[1]}, {wanted}", Status.ERR_SIZE)
