@@ -1,0 +1,330 @@
+"""Contact problems from matrices in files: an influence matrix, or the stiffness matrix of a body and its points."""
+
+from __future__ import annotations
+
+import math
+from contextlib import suppress
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fuge._library import has_sparse
+from fuge.body import Body, Condensed
+from fuge.columns import CompressedColumns
+from fuge.command.errors import CommandError, UsageError
+from fuge.command.options import Options, Setting
+from fuge.command.run import Log, Outcome, Report, caught
+from fuge.command.tables import Column, Table, number_text, write_lines
+from fuge.contact import Contact
+from fuge.errors import Error, InputError, Status
+from fuge.files import read_matrix, read_sparse, read_stiffness
+from fuge.formats.text import LARGEST_LABEL, Reason, label, quoted_path, value
+from fuge.operators import CallbackOperator
+from fuge.path import PointState
+from fuge.proof import Proof
+from fuge.solver import Solver
+
+Array = NDArray[np.float64]
+
+# Points on springs of their own up to this number are solved by a matrix, which can be proved.
+_MOST_DENSE = 1000
+
+
+def solve_influence(given: Options, log: Log) -> Outcome:
+    """--alpha."""
+    gap, operator = _influence(given, log)
+    report = Report(log)
+    with Solver(operator, threads=given.threads(), progress=log.progress) as solver:
+        solver.set_gap(gap, _play(given, gap.size))
+        _set_points(given, solver)
+        if given.has("modes"):
+            _set_modes(given, solver)
+        elif given.has("load"):
+            solver.set_load(given.first("load").number())
+        else:
+            solver.set_approach(given.first("approach").number())
+        contact, proof = solve_contact(given, solver, report)
+    return _outcome(given, contact, proof, report)
+
+
+def solve_body(given: Options, log: Log) -> Outcome:
+    """--stiffness and --contact."""
+    body, points = _read_body(given, log)
+    with caught() as condensation:
+        condensed = body.condense()
+    log.say(f"the body is condensed to {points} points")
+    gap = _vector(given.file("gap"), points) + condensed.displacement
+    report = Report(log)
+    with Solver(condensed.influence, threads=given.threads(), progress=log.progress) as solver:
+        solver.set_gap(gap, _play(given, points))
+        _set_points(given, solver)
+        try:
+            _pose_body(given, condensed, solver)
+            contact, proof = solve_contact(given, solver, report)
+        except InputError as failure:
+            raise _explained(failure) if condensed.resultant.size else failure from None
+    report.take_all(condensation)
+
+    if not given.has("field"):
+        return _outcome(given, contact, proof, report)
+    with caught() as recovery:
+        displacement = body.recover(contact.force, contact.motion[: condensed.resultant.size])
+    report.take_all(recovery)
+    degrees = Column("degree of freedom", range(1, displacement.size + 1))
+    field = Table([degrees, Column("displacement", displacement)])
+    outcome = _outcome(given, contact, proof, report)
+    return replace(outcome, write_field=lambda path: write_lines(path, field.lines()))
+
+
+def solve_contact(given: Options, solver: Solver, report: Report) -> tuple[Contact, Proof | None]:
+    """Solve, and prove where that is asked for; warnings and remarks go into the report."""
+    with caught():
+        contact = solver.solve()
+    info = contact.info
+    report.log.say(
+        f"contact is solved: {info.contacts} of {contact.force.size} points, {info.iterations} contact sets"
+    )
+    report.residual = info.residual
+    report.take(info.status, contact.message)
+    if not given.has("prove"):
+        return contact, None
+    with caught() as warned:
+        proof = solver.prove()
+    report.log.say("the proof is done")
+    report.take(warned[0].status if warned else Status.DONE, proof.message)
+    return contact, proof
+
+
+# ---- what is read
+
+
+def _influence(given: Options, log: Log) -> tuple[Array, Any]:
+    """Gaps, and the influence matrix or, where there is none, an operator without displacements."""
+    path = given.file("alpha")
+    if not path or _is_zero(given.first("alpha")):
+        if not given.has("compliance"):
+            raise UsageError("--alpha 0 needs --compliance, the springs at the points")
+        gap = _vector(given.file("gap"))
+        log.say(f"{gap.size} points on springs of their own")
+        if gap.size <= _MOST_DENSE:
+            return gap, np.zeros((gap.size, gap.size))
+        return gap, CallbackOperator(gap.size, np.zeros_like)
+    alpha = read_matrix(path)
+    if alpha.shape[0] != alpha.shape[1] or alpha.size == 0:
+        raise size_error(path, alpha.shape, "a square one is needed")
+    log.say(f"influence matrix of {len(alpha)} points is read")
+    return _vector(given.file("gap"), len(alpha)), alpha
+
+
+def _is_zero(setting: Setting) -> bool:
+    with suppress(Reason):
+        return value(setting.value) == 0.0
+    return False
+
+
+def _read_body(given: Options, log: Log) -> tuple[Body, int]:
+    """The body with its supports, loads and contact points, and their number."""
+    names = given.file("rows") or None
+    stiffness = read_stiffness(given.file("stiffness"), names_path=names)
+    degrees = stiffness.shape[0]
+    log.say(f"stiffness matrix of {degrees} rows is read")
+    body = Body(stored(stiffness))
+    if given.has("floats"):
+        body.find_rigid_modes()
+    dof, normal = _contact(given.file("contact"), degrees)
+    body.set_contact(dof, normal)
+    if given.has("fixed"):
+        body.fix(*_fixed(given.file("fixed")))
+    if given.has("external"):
+        body.set_load(_vector(given.file("external"), degrees))
+    return body, len(dof)
+
+
+def stored(stiffness: CompressedColumns) -> Any:
+    """A stiffness matrix as the library can take it: dense without its component for sparse ones."""
+    return stiffness if has_sparse() else stiffness.tocsc().toarray()
+
+
+def _contact(path: str, degrees: int) -> tuple[NDArray[np.intc], Array]:
+    """Degrees of freedom of each point, and their directions, from a matrix with a row for each point."""
+    matrix = read_sparse(path)
+    points = matrix.shape[0]
+    if matrix.shape[1] != degrees or points < 1:
+        raise size_error(path, matrix.shape, f"n x {degrees} is needed")
+    order = np.argsort(matrix.row, kind="stable")
+    row = matrix.row[order]
+    used = np.bincount(row, minlength=points)
+    place = np.arange(row.size) - np.repeat(np.cumsum(used) - used, used)
+    dof = np.full((points, used.max()), -1, dtype=np.intc)
+    normal = np.zeros(dof.shape)
+    dof[row, place] = np.repeat(np.arange(degrees), np.diff(matrix.column))[order]
+    normal[row, place] = matrix.value[order]
+    return dof, normal
+
+
+def _fixed(path: str) -> tuple[NDArray[np.intc], Array | None]:
+    """Degrees of freedom that are held, and their displacements if there is a second column."""
+    matrix = read_matrix(path)
+    if not 1 <= matrix.shape[1] <= 2:
+        raise size_error(path, matrix.shape, "k x 1 or k x 2 is needed")
+    named = matrix[:, 0]
+    for k in np.flatnonzero((named != np.rint(named)) | (abs(named) > LARGEST_LABEL))[:1]:
+        reason = f"entry ({k + 1}, 1) = {number_text(named[k], 5)} is no degree of freedom"
+        raise CommandError(f"{quoted_path(path)}: {reason}", Status.ERR_DOF)
+    return named.astype(np.intc) - 1, matrix[:, 1] if matrix.shape[1] == 2 else None
+
+
+def _vector(path: str, n: int | None = None) -> Array:
+    """A matrix of n rows and one column, or of one row and n columns; of any length without n."""
+    matrix = read_matrix(path)
+    length = max(matrix.shape, default=0) if n is None else n
+    if matrix.shape not in ((length, 1), (1, length)):
+        raise size_error(path, matrix.shape, f"{'n' if n is None else n} x 1 is needed")
+    return matrix.reshape(-1)
+
+
+def size_error(path: str, shape: tuple[int, ...], wanted: str) -> Error:
+    """The error that a matrix in a file has another shape than is wanted."""
+    return CommandError(f"{quoted_path(path)}: a matrix of {shape[0]} x {shape[1]}, {wanted}", Status.ERR_SIZE)
+
+
+# ---- points and motions
+
+
+def _set_points(given: Options, solver: Solver) -> None:
+    """Springs, limits of the forces and excluded points."""
+    laws = {name: _law(given, name, solver.n) for name in ("compliance", "limit", "limit-upper")}
+    if laws["compliance"] is not None:
+        solver.set_compliance(laws["compliance"])
+    solver.set_limits(_infinite(laws["limit"]), _infinite(laws["limit-upper"]))
+    solver.set_excluded(_excluded(given, solver.n))
+
+
+def _play(given: Options, n: int) -> Array | None:
+    return _infinite(_vector(given.file("play"), n)) if given.has("play") else None
+
+
+def _law(given: Options, name: str, n: int) -> Array | None:
+    """A value for each point, from a file or one for all; None without the option."""
+    if not given.has(name):
+        return None
+    with suppress(Reason):
+        return np.full(n, value(given.first(name).value))
+    return _vector(given.file(name), n)
+
+
+def _infinite(values: Array | None) -> Array | None:
+    """Where a file has -1 there is no stop and no limit."""
+    return None if values is None else np.where(values == -1.0, np.inf, values)
+
+
+def _excluded(given: Options, n: int) -> NDArray[np.bool_] | None:
+    """Points that --exclude names in lists such as 3,7-9; None without the option."""
+    settings = given.all("exclude")
+    excluded = np.zeros(n, dtype=bool)
+    for setting in settings:
+        for item in setting.value.split(","):
+            first, _, last = item.partition("-")
+            try:
+                begin = label(first, "point", 0)
+                end = label(last, "point", begin) if "-" in item else begin
+            except Reason:
+                raise setting.refuse(f'"{item}" is no number of a point and no range such as 7-9') from None
+            if begin < 1 or end > n:
+                raise setting.refuse(f'"{item}" is not within 1 to {n}')
+            excluded[begin - 1 : end] = True
+    return excluded if settings else None
+
+
+def _set_modes(given: Options, solver: Solver) -> None:
+    """Rigid motions from files, and those that --motion prescribes."""
+    path = given.file("modes")
+    modes = read_matrix(path)
+    if len(modes) != solver.n:
+        raise size_error(path, modes.shape, f"{solver.n} rows are needed")
+    solver.set_modes(modes, _vector(given.file("resultant"), modes.shape[1]))
+    prescribed = set()
+    for setting in given.all("motion"):
+        word, _, size = setting.value.partition("=")
+        try:
+            mode, motion = label(word, "motion", 0), value(size)
+        except Reason:
+            raise setting.refuse("the number of a motion and its value are needed, like 2=0.1") from None
+        if not 1 <= mode <= modes.shape[1]:
+            raise setting.refuse(f'"{path}" has {modes.shape[1]} motions')
+        if mode in prescribed:
+            raise setting.refuse(f"motion {mode} is given twice")
+        prescribed.add(mode)
+        solver.set_motion(mode - 1, motion)
+
+
+def _pose_body(given: Options, condensed: Condensed, solver: Solver) -> None:
+    """The motions of a body that floats come before that of the counter-body, which may stand still."""
+    own = condensed.resultant.size
+    moves = given.has("load") or given.has("approach")
+    counter = np.ones((solver.n, 1 if moves else 0))
+    load = [given.first("load").number()] if given.has("load") else [0.0] * moves
+    if own == 0 and given.has("load"):
+        solver.set_load(load[0])
+    else:
+        solver.set_modes(np.hstack([condensed.modes, counter]), np.append(condensed.resultant, load))
+    if given.has("approach"):
+        solver.set_motion(own, given.first("approach").number())
+
+
+def _explained(failure: InputError) -> Error:
+    """The library counts motions of a body that floats together with those of the counter-body, which no file names."""
+    if failure.status != Status.ERR_MODES:
+        return failure
+    if "moves no point" in failure.message:
+        return CommandError(
+            "a rigid motion of the body that floats, or of the counter-body, moves no point that may touch: exclude "
+            "fewer points, or hold the body by --fixed",
+            failure.status,
+        )
+    return CommandError(
+        "the body floats (--floats) and the counter-body is free under its load (--load): nothing resists a motion of "
+        "both together; prescribe the counter-body by --approach, or hold the body by --fixed",
+        failure.status,
+    )
+
+
+# ---- the table
+
+
+def state_words(
+    force: Array, state: NDArray[np.intc], play: Array | None = None, excluded: NDArray[np.bool_] | None = None
+) -> NDArray[np.str_]:
+    """What points do; where a force is limited, its sign tells the stop."""
+    words = np.select([force > 0.0, force < 0.0], ["contact", "upper"], "open")
+    if play is not None:
+        words = np.where(play > 0.0, words, "held")
+    limited = (state == PointState.LIMITED_LOWER) | (state == PointState.LIMITED_UPPER)
+    words = np.where(limited, "limited", words)
+    return words if excluded is None else np.where(excluded, "excluded", words)
+
+
+def _outcome(given: Options, contact: Contact, proof: Proof | None, report: Report) -> Outcome:
+    n = contact.force.size
+    comments = report.comments(contact.info.contacts)
+    for k, (motion, resultant) in enumerate(zip(contact.motion, contact.resultant)):
+        line = f"motion {k + 1}: {number_text(motion, 16, 24)}, resultant: {number_text(resultant, 16, 24)}"
+        bound = "" if proof is None else f", bound: {number_text(proof.motion_bound[k], 16, 24)}"
+        comments.append(line + bound)
+    words = state_words(contact.force, contact.state, _play(given, n), _excluded(given, n))
+    points = range(1, n + 1)
+    columns = [Column("point", points), Column("force", contact.force), Column("gap", contact.gap)]
+    columns.append(Column("state", words))
+    if proof is not None:
+        low, high = proof.largest_force
+        comments.append(f"largest force: from {number_text(low, 16, 24)} to {number_text(high, 16, 24)}")
+        columns += [Column("force_bound", proof.force_bound), Column("gap_bound", proof.gap_bound)]
+        columns.append(Column("proved", np.where(proof.proved, "yes", "no")))
+
+    def draw(axes: Any) -> None:
+        axes.plot(points, contact.force, drawstyle="steps-mid")
+        axes.set(xlabel="point", ylabel="force")
+
+    return Outcome(Table(columns, comments), draw=draw)
