@@ -12,7 +12,7 @@ import fuge
 from fuge.command import errors
 from fuge.command.checks import check_options, is_output
 from fuge.command.errors import UsageError
-from fuge.command.option_table import help_text
+from fuge.command.option_table import HELP
 from fuge.command.options import Options
 from fuge.command.run import Log, Outcome, print_error
 from fuge.command.tables import write_lines
@@ -56,7 +56,7 @@ def main(words: Sequence[str] | None = None) -> int:
 def _run(words: Sequence[str]) -> int:
     given = Options(words)
     if given.has("help"):
-        write_lines("", [help_text()])
+        write_lines("", HELP.splitlines())
         return errors.DONE
     if given.has("version"):
         write_lines("", _version_lines())
@@ -85,7 +85,7 @@ def _write(given: Options, outcome: Outcome) -> None:
         _draw(given.file("plot"), outcome)
     to_output = given.has("json") and is_output(given.first("json"))
     if given.has("json"):
-        write_lines("" if to_output else given.file("json"), [outcome.table.json()])
+        write_lines("" if to_output else given.file("json"), outcome.table.json_lines())
     if given.has("output") or not to_output:
         write_lines(given.file("output"), outcome.table.lines())
 

@@ -21,7 +21,7 @@ _UNSOLVED = (
 # What the library counts from 0 in its messages, and tables of the command from 1; text in quotes stays.
 _INDEX = re.compile(
     r'"[^"]*"'
-    r"|(?P<name>\b[a-z]\w*)[[](?P<places>\d+(?:, \d+)*)[]]"
+    r"|(?P<name>\b[a-z]\w* ?)\[(?P<places>\d+(?:, \d+)*)\]"
     r"|(?P<word>\b(?:point|the first is|degrees? of freedom|motion|mode|cell))"
     r" (?P<number>\d+)(?P<other> and \d+)?\b(?!\.\d)"
 )
@@ -40,7 +40,7 @@ class UsageError(CommandError):
 
 def exit_code(failure: Error) -> int:
     """The exit code of an error: of usage, of the input, or of a problem without a solution."""
-    if isinstance(failure, UsageError):
+    if failure.status == Status.ERR_OPTION:
         return USAGE
     return UNSOLVED if failure.status in _UNSOLVED else INPUT
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from contextlib import suppress
 from dataclasses import replace
 from typing import Any
@@ -10,21 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+import fuge
 from fuge._library import has_sparse
-from fuge.body import Body, Condensed
-from fuge.columns import CompressedColumns
 from fuge.command.errors import CommandError, UsageError
 from fuge.command.options import Options, Setting
 from fuge.command.run import Log, Outcome, Report, caught
 from fuge.command.tables import Column, Table, number_text, write_lines
-from fuge.contact import Contact
 from fuge.errors import Error, InputError, Status
-from fuge.files import read_matrix, read_sparse, read_stiffness
 from fuge.formats.text import LARGEST_LABEL, Reason, label, quoted_path, value
-from fuge.operators import CallbackOperator
-from fuge.path import PointState
-from fuge.proof import Proof
-from fuge.solver import Solver
 
 Array = NDArray[np.float64]
 
@@ -36,7 +28,7 @@ def solve_influence(given: Options, log: Log) -> Outcome:
     """--alpha."""
     gap, operator = _influence(given, log)
     report = Report(log)
-    with Solver(operator, threads=given.threads(), progress=log.progress) as solver:
+    with fuge.Solver(operator, threads=given.threads(), progress=log.progress) as solver:
         solver.set_gap(gap, _play(given, gap.size))
         _set_points(given, solver)
         if given.has("modes"):
@@ -57,7 +49,7 @@ def solve_body(given: Options, log: Log) -> Outcome:
     log.say(f"the body is condensed to {points} points")
     gap = _vector(given.file("gap"), points) + condensed.displacement
     report = Report(log)
-    with Solver(condensed.influence, threads=given.threads(), progress=log.progress) as solver:
+    with fuge.Solver(condensed.influence, threads=given.threads(), progress=log.progress) as solver:
         solver.set_gap(gap, _play(given, points))
         _set_points(given, solver)
         try:
@@ -78,7 +70,7 @@ def solve_body(given: Options, log: Log) -> Outcome:
     return replace(outcome, write_field=lambda path: write_lines(path, field.lines()))
 
 
-def solve_contact(given: Options, solver: Solver, report: Report) -> tuple[Contact, Proof | None]:
+def solve_contact(given: Options, solver: fuge.Solver, report: Report) -> tuple[fuge.Contact, fuge.Proof | None]:
     """Solve, and prove where that is asked for; warnings and remarks go into the report."""
     with caught():
         contact = solver.solve()
@@ -110,8 +102,8 @@ def _influence(given: Options, log: Log) -> tuple[Array, Any]:
         log.say(f"{gap.size} points on springs of their own")
         if gap.size <= _MOST_DENSE:
             return gap, np.zeros((gap.size, gap.size))
-        return gap, CallbackOperator(gap.size, np.zeros_like)
-    alpha = read_matrix(path)
+        return gap, fuge.CallbackOperator(gap.size, np.zeros_like)
+    alpha = fuge.read_matrix(path)
     if alpha.shape[0] != alpha.shape[1] or alpha.size == 0:
         raise size_error(path, alpha.shape, "a square one is needed")
     log.say(f"influence matrix of {len(alpha)} points is read")
@@ -124,13 +116,13 @@ def _is_zero(setting: Setting) -> bool:
     return False
 
 
-def _read_body(given: Options, log: Log) -> tuple[Body, int]:
+def _read_body(given: Options, log: Log) -> tuple[fuge.Body, int]:
     """The body with its supports, loads and contact points, and their number."""
     names = given.file("rows") or None
-    stiffness = read_stiffness(given.file("stiffness"), names_path=names)
+    stiffness = fuge.read_stiffness(given.file("stiffness"), names_path=names)
     degrees = stiffness.shape[0]
     log.say(f"stiffness matrix of {degrees} rows is read")
-    body = Body(stored(stiffness))
+    body = fuge.Body(stored(stiffness))
     if given.has("floats"):
         body.find_rigid_modes()
     dof, normal = _contact(given.file("contact"), degrees)
@@ -142,14 +134,14 @@ def _read_body(given: Options, log: Log) -> tuple[Body, int]:
     return body, len(dof)
 
 
-def stored(stiffness: CompressedColumns) -> Any:
+def stored(stiffness: fuge.CompressedColumns) -> Any:
     """A stiffness matrix as the library can take it: dense without its component for sparse ones."""
     return stiffness if has_sparse() else stiffness.tocsc().toarray()
 
 
 def _contact(path: str, degrees: int) -> tuple[NDArray[np.intc], Array]:
     """Degrees of freedom of each point, and their directions, from a matrix with a row for each point."""
-    matrix = read_sparse(path)
+    matrix = fuge.read_sparse(path)
     points = matrix.shape[0]
     if matrix.shape[1] != degrees or points < 1:
         raise size_error(path, matrix.shape, f"n x {degrees} is needed")
@@ -166,7 +158,7 @@ def _contact(path: str, degrees: int) -> tuple[NDArray[np.intc], Array]:
 
 def _fixed(path: str) -> tuple[NDArray[np.intc], Array | None]:
     """Degrees of freedom that are held, and their displacements if there is a second column."""
-    matrix = read_matrix(path)
+    matrix = fuge.read_matrix(path)
     if not 1 <= matrix.shape[1] <= 2:
         raise size_error(path, matrix.shape, "k x 1 or k x 2 is needed")
     named = matrix[:, 0]
@@ -178,7 +170,7 @@ def _fixed(path: str) -> tuple[NDArray[np.intc], Array | None]:
 
 def _vector(path: str, n: int | None = None) -> Array:
     """A matrix of n rows and one column, or of one row and n columns; of any length without n."""
-    matrix = read_matrix(path)
+    matrix = fuge.read_matrix(path)
     length = max(matrix.shape, default=0) if n is None else n
     if matrix.shape not in ((length, 1), (1, length)):
         raise size_error(path, matrix.shape, f"{'n' if n is None else n} x 1 is needed")
@@ -193,7 +185,7 @@ def size_error(path: str, shape: tuple[int, ...], wanted: str) -> Error:
 # ---- points and motions
 
 
-def _set_points(given: Options, solver: Solver) -> None:
+def _set_points(given: Options, solver: fuge.Solver) -> None:
     """Springs, limits of the forces and excluded points."""
     laws = {name: _law(given, name, solver.n) for name in ("compliance", "limit", "limit-upper")}
     if laws["compliance"] is not None:
@@ -238,10 +230,10 @@ def _excluded(given: Options, n: int) -> NDArray[np.bool_] | None:
     return excluded if settings else None
 
 
-def _set_modes(given: Options, solver: Solver) -> None:
+def _set_modes(given: Options, solver: fuge.Solver) -> None:
     """Rigid motions from files, and those that --motion prescribes."""
     path = given.file("modes")
-    modes = read_matrix(path)
+    modes = fuge.read_matrix(path)
     if len(modes) != solver.n:
         raise size_error(path, modes.shape, f"{solver.n} rows are needed")
     solver.set_modes(modes, _vector(given.file("resultant"), modes.shape[1]))
@@ -260,7 +252,7 @@ def _set_modes(given: Options, solver: Solver) -> None:
         solver.set_motion(mode - 1, motion)
 
 
-def _pose_body(given: Options, condensed: Condensed, solver: Solver) -> None:
+def _pose_body(given: Options, condensed: fuge.Condensed, solver: fuge.Solver) -> None:
     """The motions of a body that floats come before that of the counter-body, which may stand still."""
     own = condensed.resultant.size
     moves = given.has("load") or given.has("approach")
@@ -301,12 +293,12 @@ def state_words(
     words = np.select([force > 0.0, force < 0.0], ["contact", "upper"], "open")
     if play is not None:
         words = np.where(play > 0.0, words, "held")
-    limited = (state == PointState.LIMITED_LOWER) | (state == PointState.LIMITED_UPPER)
+    limited = (state == fuge.PointState.LIMITED_LOWER) | (state == fuge.PointState.LIMITED_UPPER)
     words = np.where(limited, "limited", words)
     return words if excluded is None else np.where(excluded, "excluded", words)
 
 
-def _outcome(given: Options, contact: Contact, proof: Proof | None, report: Report) -> Outcome:
+def _outcome(given: Options, contact: fuge.Contact, proof: fuge.Proof | None, report: Report) -> Outcome:
     n = contact.force.size
     comments = report.comments(contact.info.contacts)
     for k, (motion, resultant) in enumerate(zip(contact.motion, contact.resultant)):

@@ -113,7 +113,8 @@ class Report:
 
     def comments(self, contacts: int | None = None) -> list[str]:
         """Status, message, residual and number of contacts for the head of a table."""
-        return outcome_comments(self.status, self.message, self.residual, contacts)
+        remarks = "; ".join(self.notes)
+        return outcome_comments(self.status, self.message or remarks, self.residual, contacts)
 
 
 def outcome_comments(status: Status, message: str, residual: float, contacts: int | None = None) -> list[str]:

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import Any, TextIO, Union
+from typing import Any, Literal, TextIO, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,12 +76,15 @@ class Table:
                 yield ""
             yield ",".join(row)
 
-    def json(self) -> str:
-        """Comments, names of columns and rows; what is infinite or not a number is null."""
-        rows = zip(*(map(_json_value, _plain(column.values)) for column in self.columns))
+    def json_lines(self) -> Iterator[str]:
+        """Comments, names of columns and rows as JSON; what is infinite or not a number is null."""
         names = [column.name for column in self.columns]
-        content = {"comments": self.comments, "columns": names, "rows": [list(row) for row in rows]}
-        return json.dumps(content, indent=1)
+        yield f'{{"comments": {json.dumps(self.comments)},\n"columns": {json.dumps(names)},\n"rows": ['
+        before = ""
+        for row in zip(*(map(_json_value, _plain(column.values)) for column in self.columns)):
+            yield before + json.dumps(row)
+            before = ","
+        yield "]}"
 
 
 def _plain(values: Values) -> Iterable[Any]:
@@ -138,7 +141,7 @@ def _write_all(file: TextIO, lines: Iterable[str]) -> None:
     file.flush()
 
 
-def open_file(path: str, mode: str) -> TextIO:
+def open_file(path: str, mode: Literal["w", "a"]) -> TextIO:
     """Open a file for writing; names keep their bytes, whatever their encoding is. Errors: FileError."""
     try:
         return open(path, mode, encoding="utf-8", errors="surrogateescape", newline="\n")
