@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -181,7 +182,8 @@ def _read(given: Options, level: str) -> _Surface:
     try:
         found = fuge.read_surface(path, fill=given.has("fill"))
     except FileError as failure:
-        raise FileError(failure.message.replace("fill=True", "--fill"), failure.status) from None
+        message = re.sub("be filled( by fill=True)?", "be filled by --fill", failure.message)
+        raise FileError(message, failure.status) from None
     scale = _factor(given, "scale")
     spacing = _spacing(given, found.spacing, scale)
     height_scale = _factor(given, "height-scale", scale)
