@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 import fuge
 from fuge.command.checks import check_input
-from fuge.command.errors import CommandError, UsageError
+from fuge.command.errors import UsageError
 from fuge.command.matrices import stored
 from fuge.command.options import Options
 from fuge.command.run import Log, Outcome, caught, outcome_comments
@@ -26,60 +26,59 @@ _NOT_DRAWN = ("GAP", "SPRING", "DASHPOT", "MASS", "ROTARYI", "CONN", "DCOUP", "D
 
 
 @dataclass
-class _Model:
-    """What the deck, its tables and the stiffness matrix have."""
+class _Case:
+    """A load case: its report and, unless it failed, its solution; forces are NaN where it failed."""
 
-    deck: fuge.Deck
-    stiffness: fuge.StiffnessFile
-
-    def named(self, message: str) -> str:
-        """A message of the library with names of links, and nodes with their directions, instead of numbers."""
-        links, stiffness = self.deck.link_names, self.stiffness
-        message = re.sub(r"\bcontact point (\d+)", lambda match: links[int(match[1])], message)
-        return re.sub(r"\bdegree of freedom (\d+)", lambda match: self.dof_words(int(match[1])), message)
-
-    def dof_words(self, row: int) -> str:
-        return f"node {self.stiffness.node[row]}, direction {self.stiffness.direction[row]}"
-
-
-@dataclass
-class _Results:
-    """A row for each case; those of cases that failed are NaN."""
-
+    name: str
     force: Array
     gap: Array
     state: NDArray[np.intc]
-    displacement: Array
-    status: list[Status]
-    message: list[str]
-    info: list[Any]
+    status: Status = Status.DONE
+    message: str = ""
+    info: fuge.Info | None = None
+    displacement: Array | None = None
+    # By rows of the matrix.
+    reaction: dict[int, float] = field(default_factory=dict)
+    proof: fuge.Proof | None = None
+
+
+@dataclass
+class _Model:
+    """What the deck, its tables and the stiffness matrix have, and the load cases."""
+
+    deck: fuge.Deck
+    stiffness: fuge.StiffnessFile
+    cases: list[_Case]
+
+    @property
+    def force(self) -> Array:
+        """Of the links, (cases, links)."""
+        return np.array([case.force for case in self.cases])
 
 
 def solve_deck(given: Options, log: Log) -> Outcome:
     """--deck, --links. Where cases fail, the outcome has the others, and the first failure."""
     model = _read(given, log)
-    draws_mesh = given.file("field")[-4:].lower() == ".vtu"
-    mesh = _drawn_mesh(given) if draws_mesh else None
-    results = _solve_cases(model, log)
-    names = model.deck.case_names
-    for name, status, message in zip(names, results.status, results.message):
-        if status > 0:
-            log.warn(f"{name}: {message}")
-    failed = [k for k, status in enumerate(results.status) if status < 0]
+    mesh = _drawn_mesh(given) if given.file("field")[-4:].lower() == ".vtu" else None
+    _solve_cases(model, given, log)
+    for case in model.cases:
+        if case.status > 0:
+            log.warn(f"{case.name}: {case.message}")
+    failed = [case for case in model.cases if case.status < 0]
     failure = ""
     if failed:
-        first = failed[0]
-        failure = f"{len(failed)} of {len(names)} load cases failed; {names[first]}: {results.message[first]}"
+        counts = f"{len(failed)} of {len(model.cases)} load cases failed"
+        failure = f"{counts}; {failed[0].name}: {failed[0].message}"
 
     def write_field(path: str) -> None:
         if mesh is None:
-            write_lines(path, _field_table(model, results).lines())
+            write_lines(path, _field_table(model).lines())
         else:
-            mesh.write(path, _node_fields(model, results, mesh))
+            mesh.write(path, _node_fields(model, mesh))
 
-    table = (_long_table if given.has("long") else _table)(model, results)
-    table.comments = [line for k in range(len(names)) for line in _case_comments(model, results, k)]
-    return Outcome(table, write_field, lambda axes: _draw(model, results, axes), failure=failure)
+    table = _long_table(model) if given.has("long") else _table(model)
+    table.comments = [line for k in range(len(model.cases)) for line in _case_comments(model, k)]
+    return Outcome(table, write_field, lambda axes: _draw(model, axes), _reactions(model), failure)
 
 
 # ---- what is read
@@ -87,9 +86,9 @@ def solve_deck(given: Options, log: Log) -> Outcome:
 
 def _read(given: Options, log: Log) -> _Model:
     deck = fuge.read_deck(given.file("deck")) if given.has("deck") else fuge.Deck()
-    for option, read in (("links", deck.read_links), ("supports", deck.read_supports), ("cases", deck.read_cases)):
+    for option in ("links", "supports", "cases"):
         if given.has(option):
-            read(given.file(option))
+            getattr(deck, f"read_{option}")(given.file(option))
     for path in deck.paths:
         check_input(given, path, "the same file as of --deck or of one that it includes")
     if not deck.link_names:
@@ -107,128 +106,143 @@ def _read(given: Options, log: Log) -> _Model:
     log.say(f"stiffness matrix of {stiffness.node.size} rows is read")
     if not stiffness.node.any():
         raise UsageError(f'"{path}" has rows without names: give the node and the direction of each by --rows')
-    return _Model(deck, stiffness)
+    shape = len(deck.link_names)
+    nothing, states = np.full(shape, np.nan), np.zeros(shape, dtype=np.intc)
+    return _Model(deck, stiffness, [_Case(name, nothing, nothing, states) for name in deck.case_names])
 
 
 # ---- load cases
 
 
-def _solve_cases(model: _Model, log: Log) -> _Results:
-    """All cases; those that hold the same rows share one condensation, and one that fails does not harm the others."""
+def _solve_cases(model: _Model, given: Options, log: Log) -> None:
+    """Solve all cases; those that hold the same rows share one condensation, and one that fails harms no other."""
     deck, stiffness = model.deck, model.stiffness
-    cases, shape = len(deck.case_names), (len(deck.case_names), len(deck.link_names))
     links, loads = deck.links(stiffness), deck.loads(stiffness)
-    supports = [deck.supports(k, stiffness) for k in range(cases)]
-    groups: dict[bytes, list[int]] = {}
-    for k, (dof, _) in enumerate(supports):
-        groups.setdefault(np.sort(dof).tobytes(), []).append(k)
-    results = _Results(
-        np.full(shape, np.nan), np.full(shape, np.nan), np.zeros(shape, dtype=np.intc),
-        np.full(loads.shape, np.nan), [Status.DONE] * cases, [""] * cases, [None] * cases,
-    )
+    supports = [dict(zip(*map(np.ndarray.tolist, deck.supports(k, stiffness)))) for k in range(len(model.cases))]
+    groups: dict[tuple[int, ...], list[int]] = {}
+    for k, held in enumerate(supports):
+        groups.setdefault(tuple(sorted(held)), []).append(k)
     body = fuge.Body(stored(stiffness))
     body.find_rigid_modes()
     body.set_links(links)
     solved = 0
-    for members in groups.values():
-        dof = np.sort(supports[members[0]][0])
-        moved = np.array([supports[k][1][np.argsort(supports[k][0])] for k in members])
-        body.fix(dof)
+    for fixed, members in groups.items():
+        moved = np.array([[supports[k][dof] for dof in fixed] for k in members])
         try:
-            _solve_group(model, body, links, loads, members, moved, results)
+            body.fix(np.array(fixed, dtype=np.intc))
+            with caught() as condensation:
+                body.condense()
+            with caught() as warned:
+                names = [model.cases[k].name for k in members]
+                found = body.solve_cases(loads[members], supports=moved, names=names, prove=given.has("prove"))
         except Error as failure:
             for k in members:
-                results.status[k], results.message[k] = failure.status, model.named(failure.message)
+                model.cases[k].status, model.cases[k].message = failure.status, _words(failure.message)
+        else:
+            # Warnings of single cases are in their reports.
+            remarks = condensation + [warning for warning in warned if warning.status == Status.DONE]
+            for j, k in enumerate(members):
+                _take(model.cases[k], found, j, fixed, remarks)
+            for warning in warned:
+                if warning.status == Status.DONE:
+                    log.warn(warning.message)
         solved += len(members)
         log.say(f"{solved} load cases are solved")
-    return results
 
 
-def _solve_group(
-    model: _Model, body: fuge.Body, links: fuge.Links, loads: Array, members: list[int], moved: Array, results: _Results
-) -> None:
-    with caught() as condensation:
-        body.condense()
-        cases = body.solve_cases(loads[members], supports=moved)
-    for j, k in enumerate(members):
-        results.force[k], results.gap[k], results.state[k] = cases.force[j], cases.gap[j], cases.state[j]
-        results.displacement[k] = np.nan if cases.displacement is None else cases.displacement[j]
-        results.status[k], results.info[k] = Status(cases.status[j]), cases.info[j]
-        results.message[k] = model.named(cases.message[j])
-        if results.status[k] == Status.ERR_NO_EQUILIBRIUM:
-            body.set_load(loads[k])
-            results.message[k] = _mechanism(model, body, links) or results.message[k]
-        for warning in condensation:
-            if results.status[k] == Status.DONE and warning.status not in (Status.DONE, Status.WARN_CASES):
-                results.status[k], results.message[k] = warning.status, model.named(warning.message)
+def _take(case: _Case, found: fuge.Cases, j: int, fixed: tuple[int, ...], remarks: list[fuge.Warning]) -> None:
+    """The report and the solution of a case, which is case j of those that were solved together."""
+    case.status, case.message, case.info = Status(found.status[j]), _words(found.message[j]), found.info[j]
+    if case.status < 0:
+        return
+    case.force, case.gap, case.state = found.force[j], found.gap[j], found.state[j]
+    case.displacement = None if found.displacement is None else found.displacement[j]
+    case.reaction = {} if found.reaction is None else dict(zip(fixed, found.reaction[j].tolist()))
+    case.proof = found.proof[j] if found.proof else None
+    told = [(warning.status, _words(warning.message)) for warning in remarks]
+    if case.proof is not None:
+        told.append((Status.DONE if case.proof.bounded else Status.WARN_NOT_PROVED, case.proof.message))
+    for status, message in told:
+        if case.status == Status.DONE and (status > 0 or not case.message):
+            case.status, case.message = status, message
 
 
-def _mechanism(model: _Model, body: fuge.Body, links: fuge.Links) -> str:
-    """Which links open, and which node moves most, where no link resists the load; empty if that is not known."""
-    try:
-        motion = body.mechanism()
-    except Error:
-        return ""
-    if not motion.any():
-        return ""
-    words = links.describe(motion, np.zeros((0, 3)), np.zeros((0, 3), dtype=np.intc))
-    row = int(np.abs(motion).argmax())
-    node, direction = model.stiffness.node[row], model.stiffness.direction[row]
-    moves = f"node {node} moves most, in direction {direction}"
-    return f"nothing holds the structure against these loads: {words}; {moves}"
+def _words(message: str) -> str:
+    """A message of the package without numbers of rows, which nodes name, and without advice on Python."""
+    message = message.partition("; Body.mechanism")[0]
+    return re.sub(r"degree of freedom \d+ \((node \d+, direction \d+)\)", r"\1", message)
 
 
 # ---- tables
 
 
-def _states(model: _Model, results: _Results, k: int) -> NDArray[np.str_]:
-    """What the links do in case k."""
-    state = results.state[k]
-    if results.status[k] < 0:
+def _states(model: _Model, case: _Case) -> NDArray[np.str_]:
+    """What the links do in a case."""
+    state = case.state
+    if case.status < 0:
         return np.full(state.shape, "failed")
     limited = (state == _State.LIMITED_LOWER) | (state == _State.LIMITED_UPPER)
     chosen = [limited, ~(model.deck.play > 0.0), state == _State.AT_LOWER_STOP, state == _State.AT_UPPER_STOP]
     return np.select(chosen, ["limited", "held", "contact", "upper"], "open")
 
 
-def _table(model: _Model, results: _Results) -> Table:
+def _table(model: _Model) -> Table:
     """A line for each link, columns for each case, and the envelope."""
     deck = model.deck
     columns = [Column("element", deck.link_names), Column("node_a", deck.node_a), Column("node_b", deck.node_b)]
-    for k in range(len(deck.case_names)):
-        columns += [Column(f"force {k + 1}", results.force[k], 25), Column(f"gap {k + 1}", results.gap[k], 25)]
-        columns.append(Column(f"state {k + 1}", _states(model, results, k)))
-    envelope = fuge.envelope(results.force)
-    for word in ("smallest", "largest"):
-        case = getattr(envelope, f"{word}_case").tolist()
-        columns.append(Column(f"{word} force", getattr(envelope, word), 25))
-        columns.append(Column(f"{word} in case", [number + 1 if number >= 0 else "" for number in case]))
-    return Table(columns)
+    for k, case in enumerate(model.cases, 1):
+        columns += [replace(column, name=f"{column.name} {k}") for column in _case_columns(model, case)]
+    return Table(columns + _envelope("force", model.force))
 
 
-def _long_table(model: _Model, results: _Results) -> Table:
+def _long_table(model: _Model) -> Table:
     """A line for each link in each case."""
-    names, links = model.deck.case_names, model.deck.link_names
-    states = np.concatenate([_states(model, results, k) for k in range(len(names))])
-    return Table(
-        [
-            Column("case", np.repeat(names, len(links))),
-            Column("link", np.tile(links, len(names))),
-            Column("force", results.force.ravel(), 25),
-            Column("gap", results.gap.ravel(), 25),
-            Column("state", states),
-        ]
-    )
+    names, links = [case.name for case in model.cases], model.deck.link_names
+    parts = zip(*(_case_columns(model, case) for case in model.cases))
+    columns = [replace(part[0], values=np.concatenate([column.values for column in part])) for part in parts]
+    return Table([Column("case", np.repeat(names, len(links))), Column("link", links * len(names)), *columns])
 
 
-def _case_comments(model: _Model, results: _Results, k: int) -> list[str]:
-    info, status = results.info[k], results.status[k]
-    comments = [f"case {k + 1}: {model.deck.case_names[k]}"]
-    residual = 0.0 if info is None else info.residual
-    if status < 0:
-        return comments + outcome_comments(status, results.message[k], residual)
-    largest, node = _largest(model, results.displacement[k])
-    comments += outcome_comments(status, results.message[k], residual, info.contacts)
+def _case_columns(model: _Model, case: _Case) -> list[Column]:
+    columns = [Column("force", case.force, 25), Column("gap", case.gap, 25), Column("state", _states(model, case))]
+    if any(other.proof for other in model.cases):
+        nothing = np.full(case.force.shape, np.nan)
+        bounds = (nothing, nothing) if case.proof is None else (case.proof.force_bound, case.proof.gap_bound)
+        proved = np.zeros(nothing.shape, dtype=bool) if case.proof is None else case.proof.proved
+        columns += [Column("force_bound", bounds[0], 25), Column("gap_bound", bounds[1], 25)]
+        columns.append(Column("proved", np.where(proved, "yes", "no")))
+    return columns
+
+
+def _envelope(name: str, values: Array) -> list[Column]:
+    """The smallest and the largest value of all cases, (cases, ..), and the cases that have them."""
+    found = fuge.envelope(values)
+    columns = []
+    for end in ("smallest", "largest"):
+        cases = getattr(found, f"{end}_case").tolist()
+        columns.append(Column(f"{end} {name}", getattr(found, end), 25))
+        columns.append(Column(f"{end} in case", [case + 1 if case >= 0 else "" for case in cases]))
+    return columns
+
+
+def _reactions(model: _Model) -> Table:
+    """Forces of the supports on the structure: a line for each row that is held in any case."""
+    rows = sorted({row for case in model.cases for row in case.reaction})
+    values = np.array([[case.reaction.get(row, np.nan) for row in rows] for case in model.cases])
+    columns = [Column("node", model.stiffness.node[rows]), Column("direction", model.stiffness.direction[rows])]
+    columns += [Column(f"reaction {k}", row, 25) for k, row in enumerate(values, 1)]
+    comments = [f"case {k}: {case.name}" for k, case in enumerate(model.cases, 1)]
+    return Table(columns + _envelope("reaction", values), comments)
+
+
+def _case_comments(model: _Model, k: int) -> list[str]:
+    case = model.cases[k]
+    comments = [f"case {k + 1}: {case.name}"]
+    residual = 0.0 if case.info is None else case.info.residual
+    if case.info is None or case.displacement is None:
+        return comments + outcome_comments(case.status, case.message, residual)
+    largest, node = _largest(model, case.displacement)
+    comments += outcome_comments(case.status, case.message, residual, case.info.contacts)
     return [*comments, f"largest displacement: {short_text(largest)} of node {node}"]
 
 
@@ -246,11 +260,12 @@ def _largest(model: _Model, displacement: Array) -> tuple[float, int]:
 # ---- displacements and pictures
 
 
-def _field_table(model: _Model, results: _Results) -> Table:
+def _field_table(model: _Model) -> Table:
     """A line for each row of the matrix, a column for each case."""
     columns = [Column("node", model.stiffness.node), Column("direction", model.stiffness.direction)]
-    for k, displacement in enumerate(results.displacement, 1):
-        columns.append(Column(f"displacement {k}", displacement, 25))
+    for k, case in enumerate(model.cases, 1):
+        nothing = np.full(model.stiffness.node.size, np.nan)
+        columns.append(Column(f"displacement {k}", nothing if case.displacement is None else case.displacement, 25))
     return Table(columns)
 
 
@@ -275,23 +290,23 @@ def _drawn_mesh(given: Options) -> fuge.Mesh:
     return drawn
 
 
-def _node_fields(model: _Model, results: _Results, mesh: fuge.Mesh) -> dict[str, Array]:
+def _node_fields(model: _Model, mesh: fuge.Mesh) -> dict[str, Array]:
     """Displacements of all nodes of the mesh in the cases that are solved."""
     places = {number: place for place, number in enumerate(mesh.node.tolist())}
     place = np.array([places.get(number, -1) for number in model.stiffness.node.tolist()])
     axis = model.stiffness.direction - 1
     rows = np.flatnonzero((place >= 0) & (axis >= 0) & (axis < 3))
     fields = {}
-    for k, name in enumerate(model.deck.case_names):
-        if results.status[k] >= 0:
-            field = fields[f"displacement {k + 1}, {name}"] = np.zeros((mesh.node.size, 3))
-            field[place[rows], axis[rows]] = results.displacement[k, rows]
+    for k, case in enumerate(model.cases, 1):
+        if case.displacement is not None:
+            vectors = fields[f"displacement {k}, {case.name}"] = np.zeros((mesh.node.size, 3))
+            vectors[place[rows], axis[rows]] = case.displacement[rows]
     return fields
 
 
-def _draw(model: _Model, results: _Results, axes: Any) -> None:
+def _draw(model: _Model, axes: Any) -> None:
     """The envelope of the forces."""
-    envelope = fuge.envelope(results.force)
+    envelope = fuge.envelope(model.force)
     places = np.arange(envelope.largest.size)
     axes.bar(places, envelope.largest - envelope.smallest, bottom=envelope.smallest)
     axes.set_xticks(places, model.deck.link_names, rotation=90)
