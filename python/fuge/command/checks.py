@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import stat
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from fuge.command.errors import UsageError
@@ -57,9 +57,9 @@ def check_options(given: Options) -> str:
         A result cannot be written where it should.
     """
     kind = _kind(given)
-    for wrong, reason in _CHECKS[kind](given.has):
-        if wrong:
-            raise UsageError(reason)
+    missing = _missing(given.has, kind)
+    if missing:
+        raise UsageError(missing)
     for names, kinds, needed in _NEEDS:
         for name in names.split():
             if given.has(name) and kind not in kinds:
@@ -87,60 +87,38 @@ def _kind(given: Options) -> str:
     return MESHES if given.has("mesh") or given.has("pair") else MATRICES
 
 
-Has = Callable[[str], bool]
-Checks = Iterable["tuple[bool, str]"]
-
-
-def _alpha_checks(has: Has) -> Checks:
-    return (
-        (not has("gap"), "--gap is needed"),
-        (has("modes") != has("resultant"), "--modes and --resultant go together"),
-        ([has("load"), has("approach"), has("modes")].count(True) != 1,
-         "one of --load, --approach and --modes is needed"),
-        (has("motion") and not has("modes"), "--motion needs --modes"),
-    )
-
-
-def _matrix_checks(has: Has) -> Checks:
-    return (
-        (not has("gap"), "--gap is needed"),
-        (has("modes"), "--modes needs --alpha"),
-        (has("motion"), "--motion needs --modes"),
-        (has("load") and has("approach"), "with --stiffness no more than one of --load and --approach is possible"),
-        (not has("contact"), "--contact, or --mesh and --pair, are needed with --stiffness"),
-    )
-
-
-def _mesh_checks(has: Has) -> Checks:
-    return (
-        (not has("mesh"), "--pair needs --mesh, the mesh with the surfaces"),
-        (not has("pair"), "--mesh needs --pair, the surfaces in contact"),
-        (not has("stiffness"), "--stiffness is needed: at least one body has to be elastic"),
-    )
-
-
-def _deck_checks(has: Has) -> Checks:
-    return (
-        (not has("stiffness"), "--stiffness is needed: the matrix of the structure without its one-way links"),
-    )
-
-
-def _surface_checks(has: Has) -> Checks:
-    return (
-        (has("pressure") == has("load"), "with --surface one of --pressure and --load is needed"),
-        (has("modulus") == (has("young") or has("poisson")),
-         "with --surface either --modulus, or --young and --poisson, are needed"),
-        (has("young") != has("poisson"), "--young and --poisson go together"),
-    )
-
-
-_CHECKS: dict[str, Callable[[Has], Checks]] = {
-    ALPHA: _alpha_checks,
-    MATRICES: _matrix_checks,
-    MESHES: _mesh_checks,
-    DECK: _deck_checks,
-    SURFACE: _surface_checks,
-}
+def _missing(has: Callable[[str], bool], kind: str) -> str:
+    """Which options of a kind of problem are missing or exclude each other, in words; empty if none."""
+    motions = [has("load"), has("approach"), has("modes")].count(True)
+    rules = {
+        ALPHA: {
+            "--gap is needed": not has("gap"),
+            "--modes and --resultant go together": has("modes") != has("resultant"),
+            "one of --load, --approach and --modes is needed": motions != 1,
+            "--motion needs --modes": has("motion") and not has("modes"),
+        },
+        MATRICES: {
+            "--gap is needed": not has("gap"),
+            "--modes needs --alpha": has("modes"),
+            "with --stiffness no more than one of --load and --approach is possible": motions > 1,
+            "--contact, or --mesh and --pair, are needed with --stiffness": not has("contact"),
+        },
+        MESHES: {
+            "--pair needs --mesh, the mesh with the surfaces": not has("mesh"),
+            "--mesh needs --pair, the surfaces in contact": not has("pair"),
+            "--stiffness is needed: at least one body has to be elastic": not has("stiffness"),
+        },
+        DECK: {
+            "--stiffness is needed: the matrix of the structure without its one-way links": not has("stiffness"),
+        },
+        SURFACE: {
+            "with --surface one of --pressure and --load is needed": has("pressure") == has("load"),
+            "with --surface either --modulus, or --young and --poisson, are needed": has("modulus")
+            == (has("young") or has("poisson")),
+            "--young and --poisson go together": has("young") != has("poisson"),
+        },
+    }
+    return next((reason for reason, is_wrong in rules[kind].items() if is_wrong), "")
 
 
 # ---- results

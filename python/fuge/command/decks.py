@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,69 +19,40 @@ from fuge.command.tables import Column, Table, short_text, write_lines
 from fuge.errors import Error, Status
 
 Array = NDArray[np.float64]
-_State = fuge.PointState
 
 # Types of elements that have no cell in a picture, by the letters that they begin with.
 _NOT_DRAWN = ("GAP", "SPRING", "DASHPOT", "MASS", "ROTARYI", "CONN", "DCOUP", "DGAP")
 
-
-@dataclass
-class _Case:
-    """A load case: its report and, unless it failed, its solution; forces are NaN where it failed."""
-
-    name: str
-    force: Array
-    gap: Array
-    state: NDArray[np.intc]
-    status: Status = Status.DONE
-    message: str = ""
-    info: fuge.Info | None = None
-    displacement: Array | None = None
-    # By rows of the matrix.
-    reaction: dict[int, float] = field(default_factory=dict)
-    proof: fuge.Proof | None = None
+_NO_INFO = fuge.Info(Status.DONE, 0, 0, 0, 0, 0.0, 0.0, 0.0)
 
 
-@dataclass
-class _Model:
-    """What the deck, its tables and the stiffness matrix have, and the load cases."""
+class _Model(NamedTuple):
+    """What the deck, its tables and the stiffness matrix have."""
 
     deck: fuge.Deck
     stiffness: fuge.StiffnessFile
-    cases: list[_Case]
-
-    @property
-    def force(self) -> Array:
-        """Of the links, (cases, links)."""
-        return np.array([case.force for case in self.cases])
 
 
 def solve_deck(given: Options, log: Log) -> Outcome:
     """--deck, --links. Where cases fail, the outcome has the others, and the first failure."""
     model = _read(given, log)
     mesh = _drawn_mesh(given) if given.file("field")[-4:].lower() == ".vtu" else None
-    _solve_cases(model, given, log)
-    for case in model.cases:
-        if case.status > 0:
-            log.warn(f"{case.name}: {case.message}")
-    failed = [case for case in model.cases if case.status < 0]
-    failure = ""
-    if failed:
-        counts = f"{len(failed)} of {len(model.cases)} load cases failed"
-        failure = f"{counts}; {failed[0].name}: {failed[0].message}"
+    cases, held = _solve_cases(model, given, log)
+    told = [f"{name}: {message}" for name, message in zip(cases.names, cases.message)]
+    for k in np.flatnonzero(cases.status > 0):
+        log.warn(told[k])
+    failed = np.flatnonzero(cases.status < 0)
+    failure = f"{failed.size} of {len(cases)} load cases failed; {told[failed[0]]}" if failed.size else ""
 
     def write_field(path: str) -> None:
         if mesh is None:
-            write_lines(path, _field_table(model).lines())
+            write_lines(path, _field_table(model, cases).lines())
         else:
-            mesh.write(path, _node_fields(model, mesh))
+            mesh.write(path, _node_fields(model, cases, mesh))
 
-    table = _long_table(model) if given.has("long") else _table(model)
-    table.comments = [line for k in range(len(model.cases)) for line in _case_comments(model, k)]
-    return Outcome(table, write_field, lambda axes: _draw(model, axes), _reactions(model), failure)
-
-
-# ---- what is read
+    table = _long_table(model, cases) if given.has("long") else _table(model, cases)
+    table.comments = [line for k in range(len(cases)) for line in _case_comments(model, cases, k)]
+    return Outcome(table, write_field, lambda axes: _draw(cases, axes), _reactions(model, cases, held), failure)
 
 
 def _read(given: Options, log: Log) -> _Model:
@@ -92,79 +63,91 @@ def _read(given: Options, log: Log) -> _Model:
     for path in deck.paths:
         check_input(given, path, "the same file as of --deck or of one that it includes")
     if not deck.link_names:
-        raise UsageError(
-            "no one-way link: the deck has no CGAP, no CBUSH1D with a table, and no GAPUNI, and --links gives none"
-        )
+        has = "the deck has no CGAP, no CBUSH1D with a table, and no GAPUNI"
+        raise UsageError(f"no one-way link: {has}, and --links gives none")
     if not deck.case_names:
-        raise UsageError(
-            "no load case: the deck has no SUBCASE, no only load set and no static *STEP, and --cases gives none"
-        )
+        has = "the deck has no SUBCASE, no only load set and no static *STEP"
+        raise UsageError(f"no load case: {has}, and --cases gives none")
     log.say(f"deck: {len(deck.link_names)} one-way links, {len(deck.case_names)} load cases")
-    path, rows = given.file("stiffness"), given.file("rows") or None
-    name = given.first("matrix").value if given.has("matrix") else None
-    stiffness = fuge.read_stiffness(path, names_path=rows, name=name)
+    path, name = given.file("stiffness"), given.first("matrix").value if given.has("matrix") else None
+    stiffness = fuge.read_stiffness(path, names_path=given.file("rows") or None, name=name)
     log.say(f"stiffness matrix of {stiffness.node.size} rows is read")
     if not stiffness.node.any():
         raise UsageError(f'"{path}" has rows without names: give the node and the direction of each by --rows')
-    shape = len(deck.link_names)
-    nothing, states = np.full(shape, np.nan), np.zeros(shape, dtype=np.intc)
-    return _Model(deck, stiffness, [_Case(name, nothing, nothing, states) for name in deck.case_names])
+    return _Model(deck, stiffness)
 
 
 # ---- load cases
 
 
-def _solve_cases(model: _Model, given: Options, log: Log) -> None:
-    """Solve all cases; those that hold the same rows share one condensation, and one that fails harms no other."""
-    deck, stiffness = model.deck, model.stiffness
-    links, loads = deck.links(stiffness), deck.loads(stiffness)
-    supports = [dict(zip(*map(np.ndarray.tolist, deck.supports(k, stiffness)))) for k in range(len(model.cases))]
-    groups: dict[tuple[int, ...], list[int]] = {}
-    for k, held in enumerate(supports):
-        groups.setdefault(tuple(sorted(held)), []).append(k)
+def _solve_cases(model: _Model, given: Options, log: Log) -> tuple[fuge.Cases, NDArray[np.intp]]:
+    """All cases, with the reactions at all rows that a case holds; one that fails harms no other."""
+    deck, stiffness = model
+    links, loads, names = deck.links(stiffness), deck.loads(stiffness), tuple(deck.case_names)
+    supports = [_held(deck, k, stiffness) for k in range(len(names))]
+    held = np.array(sorted(set().union(*supports)), dtype=np.intp)
     body = fuge.Body(stored(stiffness))
     body.find_rigid_modes()
     body.set_links(links)
-    solved = 0
-    for fixed, members in groups.items():
-        moved = np.array([[supports[k][dof] for dof in fixed] for k in members])
+    force, gap = (np.full((len(names), links.count), np.nan) for _ in range(2))
+    displacement, reaction = np.full(loads.shape, np.nan), np.full((len(names), held.size), np.nan)
+    state, status = np.zeros(force.shape, dtype=np.intc), np.zeros(len(names), dtype=np.intc)
+    message, info = [""] * len(names), [_NO_INFO] * len(names)
+    proof: list[fuge.Proof | None] = [None] * len(names)
+    for fixed in dict.fromkeys(tuple(sorted(each)) for each in supports):
+        members = [k for k, each in enumerate(supports) if tuple(sorted(each)) == fixed]
+        moved = np.array([[supports[k][row] for row in fixed] for k in members])
+        body.fix(np.array(fixed, dtype=np.intc))
         try:
-            body.fix(np.array(fixed, dtype=np.intc))
-            with caught() as condensation:
-                body.condense()
-            with caught() as warned:
-                names = [model.cases[k].name for k in members]
-                found = body.solve_cases(loads[members], supports=moved, names=names, prove=given.has("prove"))
+            found, remarks = _solve_group(body, loads[members], moved, [names[k] for k in members], given, log)
         except Error as failure:
+            status[members] = failure.status
             for k in members:
-                model.cases[k].status, model.cases[k].message = failure.status, _words(failure.message)
-        else:
-            # Warnings of single cases are in their reports.
-            remarks = condensation + [warning for warning in warned if warning.status == Status.DONE]
-            for j, k in enumerate(members):
-                _take(model.cases[k], found, j, fixed, remarks)
-            for warning in warned:
-                if warning.status == Status.DONE:
-                    log.warn(warning.message)
-        solved += len(members)
-        log.say(f"{solved} load cases are solved")
+                message[k] = _words(failure.message)
+            continue
+        force[members], gap[members], state[members] = found.force, found.gap, found.state
+        displacement[members] = found.displacement
+        reaction[np.ix_(np.array(members), np.searchsorted(held, fixed))] = found.reaction
+        for j, k in enumerate(members):
+            info[k], proof[k] = found.info[j], found.proof[j] if found.proof else None
+            status[k], message[k] = _report(found, j, remarks)
+    cases = fuge.Cases(
+        force, gap, np.empty((len(names), 0)), state, status, tuple(info), tuple(message), displacement, reaction,
+        names, tuple(deck.link_names), proof=tuple(proof),
+    )
+    return cases, held
 
 
-def _take(case: _Case, found: fuge.Cases, j: int, fixed: tuple[int, ...], remarks: list[fuge.Warning]) -> None:
-    """The report and the solution of a case, which is case j of those that were solved together."""
-    case.status, case.message, case.info = Status(found.status[j]), _words(found.message[j]), found.info[j]
-    if case.status < 0:
-        return
-    case.force, case.gap, case.state = found.force[j], found.gap[j], found.state[j]
-    case.displacement = None if found.displacement is None else found.displacement[j]
-    case.reaction = {} if found.reaction is None else dict(zip(fixed, found.reaction[j].tolist()))
-    case.proof = found.proof[j] if found.proof else None
-    told = [(warning.status, _words(warning.message)) for warning in remarks]
-    if case.proof is not None:
-        told.append((Status.DONE if case.proof.bounded else Status.WARN_NOT_PROVED, case.proof.message))
-    for status, message in told:
-        if case.status == Status.DONE and (status > 0 or not case.message):
-            case.status, case.message = status, message
+def _held(deck: fuge.Deck, case: int, stiffness: fuge.StiffnessFile) -> dict[int, float]:
+    """Rows that a case holds, and their displacements."""
+    rows, displacement = deck.supports(case, stiffness)
+    return dict(zip(rows.tolist(), displacement.tolist()))
+
+
+def _solve_group(
+    body: fuge.Body, loads: Array, moved: Array, names: list[str], given: Options, log: Log
+) -> tuple[fuge.Cases, list[fuge.Warning]]:
+    """Cases with the same supports, which share a condensation, and what is said of all of them."""
+    with caught() as condensation:
+        body.condense()
+    with caught() as warned:
+        found = body.solve_cases(loads, supports=moved, names=names, prove=given.has("prove"))
+    # Other warnings are those of single cases, which have them in their reports.
+    idle = [warning for warning in warned if warning.status == Status.DONE]
+    for warning in idle:
+        log.warn(warning.message)
+    log.say(f"{len(names)} load cases with the same supports are solved")
+    return found, condensation + idle
+
+
+def _report(found: fuge.Cases, j: int, remarks: list[fuge.Warning]) -> tuple[Status, str]:
+    """Status and message of a case: its own, or those of all cases with these supports, or that of its proof."""
+    told = [(Status(found.status[j]), found.message[j]), *((warning.status, warning.message) for warning in remarks)]
+    proof = found.proof[j] if found.proof else None
+    if proof is not None:
+        told.append((Status.DONE if proof.bounded else Status.WARN_NOT_PROVED, proof.message))
+    status, message = next((each for each in told if each[0] != Status.DONE), max(told, key=lambda each: bool(each[1])))
+    return status, _words(message)
 
 
 def _words(message: str) -> str:
@@ -176,41 +159,39 @@ def _words(message: str) -> str:
 # ---- tables
 
 
-def _states(model: _Model, case: _Case) -> NDArray[np.str_]:
-    """What the links do in a case."""
-    state = case.state
-    if case.status < 0:
-        return np.full(state.shape, "failed")
-    limited = (state == _State.LIMITED_LOWER) | (state == _State.LIMITED_UPPER)
-    chosen = [limited, ~(model.deck.play > 0.0), state == _State.AT_LOWER_STOP, state == _State.AT_UPPER_STOP]
-    return np.select(chosen, ["limited", "held", "contact", "upper"], "open")
-
-
-def _table(model: _Model) -> Table:
+def _table(model: _Model, cases: fuge.Cases) -> Table:
     """A line for each link, columns for each case, and the envelope."""
     deck = model.deck
     columns = [Column("element", deck.link_names), Column("node_a", deck.node_a), Column("node_b", deck.node_b)]
-    for k, case in enumerate(model.cases, 1):
-        columns += [replace(column, name=f"{column.name} {k}") for column in _case_columns(model, case)]
-    return Table(columns + _envelope("force", model.force))
+    for k in range(len(cases)):
+        columns += [replace(column, name=f"{column.name} {k + 1}") for column in _case_columns(model, cases, k)]
+    return Table(columns + _envelope("force", cases.force))
 
 
-def _long_table(model: _Model) -> Table:
+def _long_table(model: _Model, cases: fuge.Cases) -> Table:
     """A line for each link in each case."""
-    names, links = [case.name for case in model.cases], model.deck.link_names
-    parts = zip(*(_case_columns(model, case) for case in model.cases))
+    parts = zip(*(_case_columns(model, cases, k) for k in range(len(cases))))
     columns = [replace(part[0], values=np.concatenate([column.values for column in part])) for part in parts]
-    return Table([Column("case", np.repeat(names, len(links))), Column("link", links * len(names)), *columns])
+    names, links = np.repeat(cases.names, len(cases.links)), cases.links * len(cases)
+    return Table([Column("case", names), Column("link", links), *columns])
 
 
-def _case_columns(model: _Model, case: _Case) -> list[Column]:
-    columns = [Column("force", case.force, 25), Column("gap", case.gap, 25), Column("state", _states(model, case))]
-    if any(other.proof for other in model.cases):
-        nothing = np.full(case.force.shape, np.nan)
-        bounds = (nothing, nothing) if case.proof is None else (case.proof.force_bound, case.proof.gap_bound)
-        proved = np.zeros(nothing.shape, dtype=bool) if case.proof is None else case.proof.proved
-        columns += [Column("force_bound", bounds[0], 25), Column("gap_bound", bounds[1], 25)]
-        columns.append(Column("proved", np.where(proved, "yes", "no")))
+def _case_columns(model: _Model, cases: fuge.Cases, k: int) -> list[Column]:
+    """What the links do in case k."""
+    state, words = cases.state[k], fuge.PointState
+    if cases.status[k] < 0:
+        states = np.full(state.shape, "failed")
+    else:
+        limited = (state == words.LIMITED_LOWER) | (state == words.LIMITED_UPPER)
+        chosen = [limited, ~(model.deck.play > 0.0), state == words.AT_LOWER_STOP, state == words.AT_UPPER_STOP]
+        states = np.select(chosen, ["limited", "held", "contact", "upper"], "open")
+    columns = [Column("force", cases.force[k], 25), Column("gap", cases.gap[k], 25), Column("state", states)]
+    proof, nothing = cases.proof[k], np.full(state.shape, np.nan)
+    if any(cases.proof):
+        force_bound, gap_bound = (nothing, nothing) if proof is None else (proof.force_bound, proof.gap_bound)
+        proved = np.where(nothing == 0.0 if proof is None else proof.proved, "yes", "no")
+        columns += [Column("force_bound", force_bound, 25), Column("gap_bound", gap_bound, 25)]
+        columns.append(Column("proved", proved))
     return columns
 
 
@@ -219,54 +200,44 @@ def _envelope(name: str, values: Array) -> list[Column]:
     found = fuge.envelope(values)
     columns = []
     for end in ("smallest", "largest"):
-        cases = getattr(found, f"{end}_case").tolist()
-        columns.append(Column(f"{end} {name}", getattr(found, end), 25))
-        columns.append(Column(f"{end} in case", [case + 1 if case >= 0 else "" for case in cases]))
+        numbers = [k + 1 if k >= 0 else "" for k in getattr(found, f"{end}_case").tolist()]
+        columns += [Column(f"{end} {name}", getattr(found, end), 25), Column(f"{end} in case", numbers)]
     return columns
 
 
-def _reactions(model: _Model) -> Table:
-    """Forces of the supports on the structure: a line for each row that is held in any case."""
-    rows = sorted({row for case in model.cases for row in case.reaction})
-    values = np.array([[case.reaction.get(row, np.nan) for row in rows] for case in model.cases])
-    columns = [Column("node", model.stiffness.node[rows]), Column("direction", model.stiffness.direction[rows])]
-    columns += [Column(f"reaction {k}", row, 25) for k, row in enumerate(values, 1)]
-    comments = [f"case {k}: {case.name}" for k, case in enumerate(model.cases, 1)]
-    return Table(columns + _envelope("reaction", values), comments)
+def _reactions(model: _Model, cases: fuge.Cases, held: NDArray[np.intp]) -> Table:
+    """Forces of the supports on the structure: a line for each row that a case holds."""
+    assert cases.reaction is not None
+    rows = [Column("node", model.stiffness.node[held]), Column("direction", model.stiffness.direction[held])]
+    columns = [Column(f"reaction {k}", row, 25) for k, row in enumerate(cases.reaction, 1)]
+    comments = [f"case {k}: {name}" for k, name in enumerate(cases.names, 1)]
+    return Table(rows + columns + _envelope("reaction", cases.reaction), comments)
 
 
-def _case_comments(model: _Model, k: int) -> list[str]:
-    case = model.cases[k]
-    comments = [f"case {k + 1}: {case.name}"]
-    residual = 0.0 if case.info is None else case.info.residual
-    if case.info is None or case.displacement is None:
-        return comments + outcome_comments(case.status, case.message, residual)
-    largest, node = _largest(model, case.displacement)
-    comments += outcome_comments(case.status, case.message, residual, case.info.contacts)
-    return [*comments, f"largest displacement: {short_text(largest)} of node {node}"]
-
-
-def _largest(model: _Model, displacement: Array) -> tuple[float, int]:
-    """The largest displacement of a node, rotations left out, and its number."""
+def _case_comments(model: _Model, cases: fuge.Cases, k: int) -> list[str]:
+    assert cases.displacement is not None
+    status, info = Status(cases.status[k]), cases.info[k]
+    contacts = None if status < 0 else info.contacts
+    comments = [f"case {k + 1}: {cases.names[k]}", *outcome_comments(status, cases.message[k], info.residual, contacts)]
+    if status < 0:
+        return comments
+    # Rotations are left out.
     moves = (model.stiffness.direction >= 1) & (model.stiffness.direction <= 3)
-    node, inverse = np.unique(model.stiffness.node[moves], return_inverse=True)
-    if node.size == 0:
-        return 0.0, 0
-    length = np.sqrt(np.bincount(inverse, displacement[moves] ** 2))
-    first = inverse[np.argmax(length[inverse])]
-    return float(length[first]), int(node[first])
+    nodes, place = np.unique(model.stiffness.node[moves], return_inverse=True)
+    length = np.sqrt(np.bincount(place, cases.displacement[k, moves] ** 2, minlength=1))
+    first = place[np.argmax(length[place])] if nodes.size else 0
+    node = nodes[first] if nodes.size else 0
+    return [*comments, f"largest displacement: {short_text(length[first])} of node {node}"]
 
 
 # ---- displacements and pictures
 
 
-def _field_table(model: _Model) -> Table:
+def _field_table(model: _Model, cases: fuge.Cases) -> Table:
     """A line for each row of the matrix, a column for each case."""
+    assert cases.displacement is not None
     columns = [Column("node", model.stiffness.node), Column("direction", model.stiffness.direction)]
-    for k, case in enumerate(model.cases, 1):
-        nothing = np.full(model.stiffness.node.size, np.nan)
-        columns.append(Column(f"displacement {k}", nothing if case.displacement is None else case.displacement, 25))
-    return Table(columns)
+    return Table(columns + [Column(f"displacement {k}", u, 25) for k, u in enumerate(cases.displacement, 1)])
 
 
 def _drawn_mesh(given: Options) -> fuge.Mesh:
@@ -276,38 +247,36 @@ def _drawn_mesh(given: Options) -> fuge.Mesh:
     except Error:
         if given.has("mesh"):
             raise
-        field = given.file("field")
         reason = "needs --mesh, an input file of Abaqus or CalculiX with the nodes and elements"
-        raise UsageError(f"--field {field} {reason}") from None
+        raise UsageError(f"--field {given.file('field')} {reason}") from None
     types = [mesh.element_type(k) for k in range(mesh.element.size)]
     kept = [k for k, word in enumerate(types) if not word.startswith(_NOT_DRAWN)]
-    sizes = np.diff(mesh.first)[kept]
-    nodes = np.full((len(kept), sizes.max(initial=1)), -1, dtype=np.intc)
-    for row, k in enumerate(kept):
-        nodes[row, : sizes[row]] = mesh.connection[mesh.first[k] : mesh.first[k + 1]]
+    nodes = np.full((len(kept), np.diff(mesh.first).max(initial=1)), -1, dtype=np.intc)
+    for row, k in zip(nodes, kept):
+        row[: mesh.first[k + 1] - mesh.first[k]] = mesh.connection[mesh.first[k] : mesh.first[k + 1]]
     drawn = fuge.Mesh.from_arrays(mesh.position, nodes, [types[k] for k in kept])
     drawn.node = mesh.node
     return drawn
 
 
-def _node_fields(model: _Model, mesh: fuge.Mesh) -> dict[str, Array]:
+def _node_fields(model: _Model, cases: fuge.Cases, mesh: fuge.Mesh) -> dict[str, Array]:
     """Displacements of all nodes of the mesh in the cases that are solved."""
+    assert cases.displacement is not None
     places = {number: place for place, number in enumerate(mesh.node.tolist())}
     place = np.array([places.get(number, -1) for number in model.stiffness.node.tolist()])
     axis = model.stiffness.direction - 1
     rows = np.flatnonzero((place >= 0) & (axis >= 0) & (axis < 3))
     fields = {}
-    for k, case in enumerate(model.cases, 1):
-        if case.displacement is not None:
-            vectors = fields[f"displacement {k}, {case.name}"] = np.zeros((mesh.node.size, 3))
-            vectors[place[rows], axis[rows]] = case.displacement[rows]
+    for k in np.flatnonzero(cases.status >= 0):
+        field = fields[f"displacement {k + 1}, {cases.names[k]}"] = np.zeros((mesh.node.size, 3))
+        field[place[rows], axis[rows]] = cases.displacement[k, rows]
     return fields
 
 
-def _draw(model: _Model, axes: Any) -> None:
+def _draw(cases: fuge.Cases, axes: Any) -> None:
     """The envelope of the forces."""
-    envelope = fuge.envelope(model.force)
-    places = np.arange(envelope.largest.size)
-    axes.bar(places, envelope.largest - envelope.smallest, bottom=envelope.smallest)
-    axes.set_xticks(places, model.deck.link_names, rotation=90)
+    found = fuge.envelope(cases.force)
+    places = np.arange(found.largest.size)
+    axes.bar(places, found.largest - found.smallest, bottom=found.smallest)
+    axes.set_xticks(places, cases.links, rotation=90)
     axes.set_ylabel("force, smallest to largest of all cases")

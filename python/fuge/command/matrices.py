@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,16 +11,26 @@ from numpy.typing import NDArray
 import fuge
 from fuge._library import has_sparse
 from fuge.command.errors import CommandError, UsageError
-from fuge.command.options import Options, Setting
+from fuge.command.options import Options
 from fuge.command.run import Log, Outcome, Report, caught
 from fuge.command.tables import Column, Table, number_text, write_lines
-from fuge.errors import Error, InputError, Status
+from fuge.errors import Error, Status
 from fuge.formats.text import LARGEST_LABEL, Reason, label, quoted_path, value
 
 Array = NDArray[np.float64]
 
 # Points on springs of their own up to this number are solved by a matrix, which can be proved.
 _MOST_DENSE = 1000
+
+# What the library says of motions is in its numbers, and no file names those of a body that floats.
+_DEPENDENT = (
+    "the body floats (--floats) and the counter-body is free under its load (--load): nothing resists a motion of both "
+    "together; prescribe the counter-body by --approach, or hold the body by --fixed"
+)
+_IDLE = (
+    "a rigid motion of the body that floats, or of the counter-body, moves no point that may touch: exclude fewer points, "
+    "or hold the body by --fixed"
+)
 
 
 def solve_influence(given: Options, log: Log) -> Outcome:
@@ -38,7 +47,7 @@ def solve_influence(given: Options, log: Log) -> Outcome:
         else:
             solver.set_approach(given.first("approach").number())
         contact, proof = solve_contact(given, solver, report)
-    return _outcome(given, contact, proof, report)
+    return Outcome(_table(given, contact, proof, report), draw=_picture(contact))
 
 
 def solve_body(given: Options, log: Log) -> Outcome:
@@ -55,29 +64,30 @@ def solve_body(given: Options, log: Log) -> Outcome:
         try:
             _pose_body(given, condensed, solver)
             contact, proof = solve_contact(given, solver, report)
-        except InputError as failure:
-            raise _explained(failure) if condensed.resultant.size else failure from None
+        except Error as failure:
+            if failure.status != Status.ERR_MODES or condensed.resultant.size == 0:
+                raise
+            raise CommandError(_IDLE if "moves no point" in failure.message else _DEPENDENT, failure.status) from None
     report.take_all(condensation)
+    field = Table([])
+    if given.has("field"):
+        with caught() as recovery:
+            displacement = body.recover(contact.force, contact.motion[: condensed.resultant.size])
+        report.take_all(recovery)
+        degrees = Column("degree of freedom", range(1, displacement.size + 1))
+        field = Table([degrees, Column("displacement", displacement)])
+    table = _table(given, contact, proof, report)
+    return Outcome(table, lambda path: write_lines(path, field.lines()), _picture(contact))
 
-    if not given.has("field"):
-        return _outcome(given, contact, proof, report)
-    with caught() as recovery:
-        displacement = body.recover(contact.force, contact.motion[: condensed.resultant.size])
-    report.take_all(recovery)
-    degrees = Column("degree of freedom", range(1, displacement.size + 1))
-    field = Table([degrees, Column("displacement", displacement)])
-    outcome = _outcome(given, contact, proof, report)
-    return replace(outcome, write_field=lambda path: write_lines(path, field.lines()))
 
-
-def solve_contact(given: Options, solver: fuge.Solver, report: Report) -> tuple[fuge.Contact, fuge.Proof | None]:
+def solve_contact(
+    given: Options, solver: fuge.Solver, report: Report
+) -> tuple[fuge.Contact, fuge.Proof | None]:
     """Solve, and prove where that is asked for; warnings and remarks go into the report."""
     with caught():
         contact = solver.solve()
-    info = contact.info
-    report.log.say(
-        f"contact is solved: {info.contacts} of {contact.force.size} points, {info.iterations} contact sets"
-    )
+    info, n = contact.info, contact.force.size
+    report.log.say(f"contact is solved: {info.contacts} of {n} points, {info.iterations} contact sets")
     report.residual = info.residual
     report.take(info.status, contact.message)
     if not given.has("prove"):
@@ -95,7 +105,7 @@ def solve_contact(given: Options, solver: fuge.Solver, report: Report) -> tuple[
 def _influence(given: Options, log: Log) -> tuple[Array, Any]:
     """Gaps, and the influence matrix or, where there is none, an operator without displacements."""
     path = given.file("alpha")
-    if not path or _is_zero(given.first("alpha")):
+    if not path or _number(given.first("alpha").value) == 0.0:
         if not given.has("compliance"):
             raise UsageError("--alpha 0 needs --compliance, the springs at the points")
         gap = _vector(given.file("gap"))
@@ -105,21 +115,14 @@ def _influence(given: Options, log: Log) -> tuple[Array, Any]:
         return gap, fuge.CallbackOperator(gap.size, np.zeros_like)
     alpha = fuge.read_matrix(path)
     if alpha.shape[0] != alpha.shape[1] or alpha.size == 0:
-        raise size_error(path, alpha.shape, "a square one is needed")
+        raise _size_error(path, alpha.shape, "a square one is needed")
     log.say(f"influence matrix of {len(alpha)} points is read")
     return _vector(given.file("gap"), len(alpha)), alpha
 
 
-def _is_zero(setting: Setting) -> bool:
-    with suppress(Reason):
-        return value(setting.value) == 0.0
-    return False
-
-
 def _read_body(given: Options, log: Log) -> tuple[fuge.Body, int]:
     """The body with its supports, loads and contact points, and their number."""
-    names = given.file("rows") or None
-    stiffness = fuge.read_stiffness(given.file("stiffness"), names_path=names)
+    stiffness = fuge.read_stiffness(given.file("stiffness"), names_path=given.file("rows") or None)
     degrees = stiffness.shape[0]
     log.say(f"stiffness matrix of {degrees} rows is read")
     body = fuge.Body(stored(stiffness))
@@ -144,7 +147,7 @@ def _contact(path: str, degrees: int) -> tuple[NDArray[np.intc], Array]:
     matrix = fuge.read_sparse(path)
     points = matrix.shape[0]
     if matrix.shape[1] != degrees or points < 1:
-        raise size_error(path, matrix.shape, f"n x {degrees} is needed")
+        raise _size_error(path, matrix.shape, f"n x {degrees} is needed")
     order = np.argsort(matrix.row, kind="stable")
     row = matrix.row[order]
     used = np.bincount(row, minlength=points)
@@ -160,7 +163,7 @@ def _fixed(path: str) -> tuple[NDArray[np.intc], Array | None]:
     """Degrees of freedom that are held, and their displacements if there is a second column."""
     matrix = fuge.read_matrix(path)
     if not 1 <= matrix.shape[1] <= 2:
-        raise size_error(path, matrix.shape, "k x 1 or k x 2 is needed")
+        raise _size_error(path, matrix.shape, "k x 1 or k x 2 is needed")
     named = matrix[:, 0]
     for k in np.flatnonzero((named != np.rint(named)) | (abs(named) > LARGEST_LABEL))[:1]:
         reason = f"entry ({k + 1}, 1) = {number_text(named[k], 5)} is no degree of freedom"
@@ -171,14 +174,13 @@ def _fixed(path: str) -> tuple[NDArray[np.intc], Array | None]:
 def _vector(path: str, n: int | None = None) -> Array:
     """A matrix of n rows and one column, or of one row and n columns; of any length without n."""
     matrix = fuge.read_matrix(path)
-    length = max(matrix.shape, default=0) if n is None else n
+    length = max(matrix.shape) if n is None else n
     if matrix.shape not in ((length, 1), (1, length)):
-        raise size_error(path, matrix.shape, f"{'n' if n is None else n} x 1 is needed")
+        raise _size_error(path, matrix.shape, f"{'n' if n is None else n} x 1 is needed")
     return matrix.reshape(-1)
 
 
-def size_error(path: str, shape: tuple[int, ...], wanted: str) -> Error:
-    """The error that a matrix in a file has another shape than is wanted."""
+def _size_error(path: str, shape: tuple[int, ...], wanted: str) -> Error:
     return CommandError(f"{quoted_path(path)}: a matrix of {shape[0]} x {shape[1]}, {wanted}", Status.ERR_SIZE)
 
 
@@ -187,10 +189,9 @@ def size_error(path: str, shape: tuple[int, ...], wanted: str) -> Error:
 
 def _set_points(given: Options, solver: fuge.Solver) -> None:
     """Springs, limits of the forces and excluded points."""
-    laws = {name: _law(given, name, solver.n) for name in ("compliance", "limit", "limit-upper")}
-    if laws["compliance"] is not None:
-        solver.set_compliance(laws["compliance"])
-    solver.set_limits(_infinite(laws["limit"]), _infinite(laws["limit-upper"]))
+    solver.set_compliance(_law(given, "compliance", solver.n))
+    limits = [_infinite(_law(given, name, solver.n)) for name in ("limit", "limit-upper")]
+    solver.set_limits(*limits)
     solver.set_excluded(_excluded(given, solver.n))
 
 
@@ -202,9 +203,14 @@ def _law(given: Options, name: str, n: int) -> Array | None:
     """A value for each point, from a file or one for all; None without the option."""
     if not given.has(name):
         return None
+    number = _number(given.first(name).value)
+    return _vector(given.file(name), n) if number is None else np.full(n, number)
+
+
+def _number(text: str) -> float | None:
     with suppress(Reason):
-        return np.full(n, value(given.first(name).value))
-    return _vector(given.file(name), n)
+        return value(text)
+    return None
 
 
 def _infinite(values: Array | None) -> Array | None:
@@ -214,20 +220,19 @@ def _infinite(values: Array | None) -> Array | None:
 
 def _excluded(given: Options, n: int) -> NDArray[np.bool_] | None:
     """Points that --exclude names in lists such as 3,7-9; None without the option."""
-    settings = given.all("exclude")
     excluded = np.zeros(n, dtype=bool)
-    for setting in settings:
+    for setting in given.all("exclude"):
         for item in setting.value.split(","):
-            first, _, last = item.partition("-")
+            first, hyphen, last = item.partition("-")
             try:
                 begin = label(first, "point", 0)
-                end = label(last, "point", begin) if "-" in item else begin
+                end = label(last, "point", begin) if hyphen else begin
             except Reason:
                 raise setting.refuse(f'"{item}" is no number of a point and no range such as 7-9') from None
             if begin < 1 or end > n:
                 raise setting.refuse(f'"{item}" is not within 1 to {n}')
             excluded[begin - 1 : end] = True
-    return excluded if settings else None
+    return excluded if given.has("exclude") else None
 
 
 def _set_modes(given: Options, solver: fuge.Solver) -> None:
@@ -235,7 +240,7 @@ def _set_modes(given: Options, solver: fuge.Solver) -> None:
     path = given.file("modes")
     modes = fuge.read_matrix(path)
     if len(modes) != solver.n:
-        raise size_error(path, modes.shape, f"{solver.n} rows are needed")
+        raise _size_error(path, modes.shape, f"{solver.n} rows are needed")
     solver.set_modes(modes, _vector(given.file("resultant"), modes.shape[1]))
     prescribed = set()
     for setting in given.all("motion"):
@@ -255,32 +260,15 @@ def _set_modes(given: Options, solver: fuge.Solver) -> None:
 def _pose_body(given: Options, condensed: fuge.Condensed, solver: fuge.Solver) -> None:
     """The motions of a body that floats come before that of the counter-body, which may stand still."""
     own = condensed.resultant.size
-    moves = given.has("load") or given.has("approach")
-    counter = np.ones((solver.n, 1 if moves else 0))
-    load = [given.first("load").number()] if given.has("load") else [0.0] * moves
+    load = given.first("load").number() if given.has("load") else 0.0
     if own == 0 and given.has("load"):
-        solver.set_load(load[0])
-    else:
-        solver.set_modes(np.hstack([condensed.modes, counter]), np.append(condensed.resultant, load))
+        solver.set_load(load)
+        return
+    counter = 1 if given.has("load") or given.has("approach") else 0
+    modes = np.hstack([condensed.modes, np.ones((solver.n, counter))])
+    solver.set_modes(modes, np.append(condensed.resultant, [load] * counter))
     if given.has("approach"):
         solver.set_motion(own, given.first("approach").number())
-
-
-def _explained(failure: InputError) -> Error:
-    """The library counts motions of a body that floats together with those of the counter-body, which no file names."""
-    if failure.status != Status.ERR_MODES:
-        return failure
-    if "moves no point" in failure.message:
-        return CommandError(
-            "a rigid motion of the body that floats, or of the counter-body, moves no point that may touch: exclude "
-            "fewer points, or hold the body by --fixed",
-            failure.status,
-        )
-    return CommandError(
-        "the body floats (--floats) and the counter-body is free under its load (--load): nothing resists a motion of "
-        "both together; prescribe the counter-body by --approach, or hold the body by --fixed",
-        failure.status,
-    )
 
 
 # ---- the table
@@ -290,33 +278,36 @@ def state_words(
     force: Array, state: NDArray[np.intc], play: Array | None = None, excluded: NDArray[np.bool_] | None = None
 ) -> NDArray[np.str_]:
     """What points do; where a force is limited, its sign tells the stop."""
-    words = np.select([force > 0.0, force < 0.0], ["contact", "upper"], "open")
-    if play is not None:
-        words = np.where(play > 0.0, words, "held")
     limited = (state == fuge.PointState.LIMITED_LOWER) | (state == fuge.PointState.LIMITED_UPPER)
-    words = np.where(limited, "limited", words)
-    return words if excluded is None else np.where(excluded, "excluded", words)
+    nowhere = np.zeros(force.shape, dtype=bool)
+    held = nowhere if play is None else ~(play > 0.0)
+    chosen = [nowhere if excluded is None else excluded, limited, held, force > 0.0, force < 0.0]
+    return np.select(chosen, ["excluded", "limited", "held", "contact", "upper"], "open")
 
 
-def _outcome(given: Options, contact: fuge.Contact, proof: fuge.Proof | None, report: Report) -> Outcome:
+def _table(given: Options, contact: fuge.Contact, proof: fuge.Proof | None, report: Report) -> Table:
     n = contact.force.size
     comments = report.comments(contact.info.contacts)
-    for k, (motion, resultant) in enumerate(zip(contact.motion, contact.resultant)):
-        line = f"motion {k + 1}: {number_text(motion, 16, 24)}, resultant: {number_text(resultant, 16, 24)}"
+    for k, pair in enumerate(zip(contact.motion, contact.resultant)):
+        motion, resultant = (number_text(size, 16, 24) for size in pair)
         bound = "" if proof is None else f", bound: {number_text(proof.motion_bound[k], 16, 24)}"
-        comments.append(line + bound)
+        comments.append(f"motion {k + 1}: {motion}, resultant: {resultant}{bound}")
     words = state_words(contact.force, contact.state, _play(given, n), _excluded(given, n))
-    points = range(1, n + 1)
-    columns = [Column("point", points), Column("force", contact.force), Column("gap", contact.gap)]
+    columns = [Column("point", range(1, n + 1)), Column("force", contact.force), Column("gap", contact.gap)]
     columns.append(Column("state", words))
     if proof is not None:
-        low, high = proof.largest_force
-        comments.append(f"largest force: from {number_text(low, 16, 24)} to {number_text(high, 16, 24)}")
+        low, high = (number_text(force, 16, 24) for force in proof.largest_force)
+        comments.append(f"largest force: from {low} to {high}")
         columns += [Column("force_bound", proof.force_bound), Column("gap_bound", proof.gap_bound)]
         columns.append(Column("proved", np.where(proof.proved, "yes", "no")))
+    return Table(columns, comments)
+
+
+def _picture(contact: fuge.Contact) -> Any:
+    """A function that draws the forces of the points into axes."""
 
     def draw(axes: Any) -> None:
-        axes.plot(points, contact.force, drawstyle="steps-mid")
+        axes.plot(range(1, contact.force.size + 1), contact.force, drawstyle="steps-mid")
         axes.set(xlabel="point", ylabel="force")
 
-    return Outcome(Table(columns, comments), draw=draw)
+    return draw

@@ -104,6 +104,31 @@ class Options:
         """The path that an option names; empty if it is not given."""
         return self.first(name).path() if self.has(name) else ""
 
+    def choice(self, name: str, words: Sequence[str]) -> str:
+        """The word of an option, which must be one of `words`; the first of them without it."""
+        if not self.has(name):
+            return words[0]
+        setting = self.first(name)
+        if setting.value not in words:
+            raise setting.refuse(f"one of {', '.join(words)} is needed")
+        return setting.value
+
+    def positive(self, name: str) -> list[float]:
+        """The numbers of an option that is given, all above 0."""
+        values = self.first(name).numbers()
+        if min(values) <= 0.0:
+            raise self.first(name).refuse("it has to be > 0")
+        return values
+
+    def factor(self, name: str, default: float = 1.0) -> float:
+        """The one number of an option, above 0; the default without it."""
+        if not self.has(name):
+            return default
+        values = self.positive(name)
+        if len(values) > 1:
+            raise self.first(name).refuse("one number is needed")
+        return values[0]
+
     def threads(self) -> int:
         """The value of --threads; 0, all cores, without it."""
         if not self.has("threads"):

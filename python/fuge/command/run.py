@@ -45,25 +45,22 @@ class Log:
     def say(self, step: str) -> None:
         """A step that is done."""
         if self._verbose:
-            self._print(f"fuge:{time.monotonic() - self._begin:9.2f} s  {step}")
+            print_error(f"fuge:{time.monotonic() - self._begin:9.2f} s  {step}")
         elif self._display is not None:
             self._display.update(step)
 
     def warn(self, message: str) -> None:
         """A result that has to be taken with care."""
         self.warned = True
-        self._print(f"fuge: warning: {message}")
+        print_error(f"fuge: warning: {message}")
 
     def note(self, message: str) -> None:
         """A remark that is no warning."""
-        self._print(f"fuge: note: {message}")
+        print_error(f"fuge: note: {message}")
 
     def _iterated(self, iteration: int, residual: float, contacts: int) -> None:
         if self._display is not None:
             self._display.update(f"iteration {iteration}, {contacts} points in contact, residual {residual:.1e}")
-
-    def _print(self, line: str) -> None:
-        print_error(line)
 
 
 def print_error(line: str) -> None:

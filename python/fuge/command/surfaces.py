@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +28,7 @@ _CHOICES = {
 # Squares of heights over spacings do not overflow: neither is above this length, and no spacing below its inverse.
 _LARGEST_LENGTH = 1e70
 
-# Slopes between which a surface is one that a machine or nature makes, and a half-space can stand for it.
+# Slopes between which surfaces mostly are, and a half-space can stand for them.
 _LEAST_SLOPE, _LARGEST_SLOPE = 1e-4, 1.0
 
 _COLUMNS = (
@@ -38,23 +37,19 @@ _COLUMNS = (
 ).split()
 
 
-@dataclass(frozen=True)
-class _Surface:
-    """Heights, levelled and in the user's unit of length, (ny, nx)."""
+class _Surface(NamedTuple):
+    """Heights, (ny, nx), levelled, and lengths in the user's unit; and what the file says of itself."""
 
     height: Array
     spacing: tuple[float, float]
     origin: tuple[float, float]
-    filled: int
-    unit: str | None
+    file: fuge.SurfaceHeights
 
     @property
     def cell(self) -> float:
         return self.spacing[0] * self.spacing[1]
 
-    def rms_height(self) -> float:
-        return float(self.height.std())
-
+    @property
     def rms_slope(self) -> float:
         """Of the slopes between neighbours along x and along y, both together; 0 for one point."""
         along = [np.diff(self.height, axis=1 - axis) / self.spacing[axis] for axis in (0, 1)]
@@ -63,19 +58,18 @@ class _Surface:
 
 def solve_surface(given: Options, log: Log) -> Outcome:
     """--surface."""
-    words = {option: _choice(given, option) for option in _CHOICES}
+    words = {option: given.choice(option, choices) for option, choices in _CHOICES.items()}
     e_star = _modulus(given)
-    loads = _positive(given, "pressure" if given.has("pressure") else "load")
+    loads = given.positive("pressure" if given.has("pressure") else "load")
     if given.has("field"):
         _check_field(given.file("field"))
     surface = _read(given, words["level"])
     ny, nx = surface.height.shape
-    log.say(f"{nx} x {ny} heights are read, {surface.filled} of them filled")
+    log.say(f"{nx} x {ny} heights are read, {surface.file.filled} of them filled")
     report = Report(log)
     _remark_slope(surface, report)
-    operator = fuge.HalfspaceOperator(
-        nx, ny, *surface.spacing, e_star, words["element"], words["boundary"].replace("-", "_")  # type: ignore[arg-type]
-    )
+    kind: Any = words["element"], words["boundary"].replace("-", "_")
+    operator = fuge.HalfspaceOperator(nx, ny, *surface.spacing, e_star, *kind)
     rows = []
     with fuge.Solver(operator, threads=given.threads(), progress=log.progress) as solver:
         solver.set_gap(surface.height.max() - surface.height)
@@ -83,26 +77,24 @@ def solve_surface(given: Options, log: Log) -> Outcome:
             row, contact = _solve_load(given, surface, solver, load, k, report)
             rows.append(row)
             log.say(f"load {k} of {len(loads)}: {row[2]} cells touch, {contact.info.products} products")
-    columns = [Column(name, values) for name, values in zip(_COLUMNS, zip(*rows))]
-    columns[9] = replace(columns[9], width=9, digits=2)
+    form = {"residual": (9, 2)}
+    columns = [Column(name, values, *form.get(name, ())) for name, values in zip(_COLUMNS, zip(*rows))]
     comments = outcome_comments(report.status, report.message, report.residual)
-    if report.notes:
-        comments.append(f"note: {'; '.join(report.notes)}")
+    comments += [f"note: {'; '.join(report.notes)}"] if report.notes else []
     comments += _surface_comments(given, surface, words, e_star)
-
-    def draw(axes: Any) -> None:
-        fuge.plot.map(contact, ax=axes)
-
-    return Outcome(Table(columns, comments), lambda path: _write_field(path, surface, contact), draw)
+    return Outcome(
+        Table(columns, comments),
+        lambda path: _write_field(path, surface, contact),
+        lambda axes: fuge.plot.map(contact, ax=axes),
+    )
 
 
 def _solve_load(
     given: Options, surface: _Surface, solver: fuge.Solver, load: float, k: int, report: Report
 ) -> tuple[list[Any], fuge.Contact]:
     """The line of one load, and its solution."""
-    height, cell = surface.height, surface.cell
-    of_pressure = given.has("pressure")
-    force = load * (height.size * surface.spacing[0] * surface.spacing[1]) if of_pressure else load
+    size, cell, of_pressure = surface.height.size, surface.cell, given.has("pressure")
+    force = load * (size * surface.spacing[0] * surface.spacing[1]) if of_pressure else load
     solver.set_load(force)
     try:
         with caught():
@@ -110,129 +102,84 @@ def _solve_load(
     except Error as failure:
         raise CommandError(f"load {k}: {counted_from_one(failure.message)}", failure.status) from None
     info = contact.info
-    status = info.status
-    report.take(status, contact.message)
+    report.take(info.status, contact.message)
     report.residual = max(report.residual, info.residual)
-    pressure = load if of_pressure else force / (height.size * cell)
-    area = info.contacts * cell
-    if info.contacts == height.size and surface.rms_height() > 0.0:
+    if info.contacts == size and np.ptp(surface.height) > 0.0:
         report.take(Status.DONE, f"the whole surface touches under load {k}: are its unit and the modulus right?")
+    area = info.contacts * cell
     # A load that rounds to zero presses no cell.
     mean = force / area if info.contacts else 0.0
-    row = [pressure, force, info.contacts, area, info.contacts / height.size, contact.approach, contact.gap.mean()]
-    row += [mean, contact.force.max() / cell, info.residual]
-    if not given.has("prove"):
-        return [*row, int(status)], contact
-    with caught() as warned:
-        proof = solver.prove()
-    of_proof = warned[0].status if warned else Status.DONE
-    report.take(of_proof, proof.message)
-    # One unit in the last place more is not below the exact quotient.
-    bounds = [proof.motion_bound[0], np.nextafter(proof.force_bound.max() / cell, np.inf), proof.gap_bound.max()]
-    return [*row, int(status or of_proof), *map(float, bounds), int(proof.proved.sum())], contact
+    row = [load if of_pressure else force / (size * cell), force, info.contacts, area, info.contacts / size]
+    row += [contact.approach, contact.gap.mean(), mean, contact.force.max() / cell, info.residual, int(info.status)]
+    if given.has("prove"):
+        with caught() as warned:
+            proof = solver.prove()
+        of_proof = warned[0].status if warned else Status.DONE
+        report.take(of_proof, proof.message)
+        row[-1] = int(info.status or of_proof)
+        # One unit in the last place more is not below the exact quotient.
+        pressure_bound = np.nextafter(proof.force_bound.max() / cell, np.inf)
+        row += [float(proof.motion_bound[0]), pressure_bound, proof.gap_bound.max(), int(proof.proved.sum())]
+    return row, contact
 
 
-# ---- options
-
-
-def _choice(given: Options, option: str) -> str:
-    words = _CHOICES[option]
-    if not given.has(option):
-        return words[0]
-    setting = given.first(option)
-    if setting.value not in words:
-        raise setting.refuse(f"one of {', '.join(words)} is needed")
-    return setting.value
-
-
-def _positive(given: Options, option: str) -> list[float]:
-    """The numbers of an option that is given, all above 0."""
-    setting = given.first(option)
-    values = setting.numbers()
-    if min(values) <= 0.0:
-        raise setting.refuse("it has to be > 0")
-    return values
-
-
-def _factor(given: Options, option: str, default: float = 1.0) -> float:
-    if not given.has(option):
-        return default
-    values = _positive(given, option)
-    if len(values) > 1:
-        raise given.first(option).refuse("one number is needed")
-    return values[0]
+# ---- what is read
 
 
 def _modulus(given: Options) -> float:
     """The combined modulus, by --modulus or by --young and --poisson of one elastic body or of both."""
     if given.has("modulus"):
-        return _factor(given, "modulus")
-    young, poisson = _positive(given, "young"), given.first("poisson").numbers()
+        return given.factor("modulus")
+    young, poisson = given.positive("young"), given.first("poisson").numbers()
     if len(young) > 2 or len(poisson) != len(young):
         raise UsageError("--young and --poisson need one number each, or two each for two elastic bodies")
     moduli = [fuge.plane_modulus(e, nu) for e, nu in zip(young, poisson)]
     return moduli[0] if len(moduli) == 1 else fuge.combined_modulus(*moduli)
 
 
-# ---- the surface
-
-
-def _read(given: Options, level: str) -> _Surface:
+def _read(given: Options, level: Any) -> _Surface:
     path = given.file("surface")
     try:
         found = fuge.read_surface(path, fill=given.has("fill"))
     except FileError as failure:
         message = re.sub("be filled( by fill=True)?", "be filled by --fill", failure.message)
         raise FileError(message, failure.status) from None
-    scale = _factor(given, "scale")
+    scale = given.factor("scale")
+    height_scale = given.factor("height-scale", scale)
     spacing = _spacing(given, found.spacing, scale)
-    height_scale = _factor(given, "height-scale", scale)
-    least, largest = min(spacing), max(spacing)
-    if (
-        np.abs(found.height).max() > _LARGEST_LENGTH / max(height_scale, 1.0)
-        or largest > _LARGEST_LENGTH
-        or least < 1.0 / _LARGEST_LENGTH
-    ):
+    largest = max(*spacing, 1.0 / min(spacing), np.abs(found.height).max() * max(height_scale, 1.0))
+    if not largest <= _LARGEST_LENGTH:
         reason = "its heights or spacings are out of range after --height-scale or --scale"
         raise FileError(f'"{path}": {reason}', Status.ERR_FILE)
     height = height_scale * found.height
-    if level != "none":
-        height = fuge.level_surface(height, level)  # type: ignore[arg-type]
     origin = scale * found.origin[0], scale * found.origin[1]
-    return _Surface(height, spacing, origin, found.filled, found.unit)
+    return _Surface(height if level == "none" else fuge.level_surface(height, level), spacing, origin, found)
 
 
 def _spacing(given: Options, known: tuple[float, float] | None, scale: float) -> tuple[float, float]:
     """The spacings of the file, scaled, or those of the options."""
     path = given.file("surface")
-    if known is None and not given.has("spacing"):
-        reason = (
-            "does not say how far apart its points are: give --spacing, one or two lengths, or comments # spacing_x = "
-            ".. and # spacing_y = .. before its heights"
-        )
-        raise CommandError(f'"{path}" {reason}', Status.ERR_OPTION)
-    if known is None:
-        values = _positive(given, "spacing")
+    if known is None and given.has("spacing"):
+        values = given.positive("spacing")
         if len(values) > 2:
             raise given.first("spacing").refuse("one or two lengths are needed, along x and along y")
         return values[0], values[-1]
+    if known is None:
+        remedy = "give --spacing, one or two lengths, or comments # spacing_x = .. and # spacing_y = .. before the heights"
+        raise CommandError(f'"{path}" does not say how far apart its points are: {remedy}', Status.ERR_OPTION)
     if given.has("spacing"):
-        spacings = f"{short_text(known[0])} and {short_text(known[1])}"
-        reason = f'"{path}" has spacings of its own, {spacings}; leave the option out, --scale changes their unit'
+        own = f"spacings of its own, {short_text(known[0])} and {short_text(known[1])}"
+        reason = f'"{path}" has {own}; leave the option out, --scale changes their unit'
         raise CommandError(f"--spacing: {reason}", Status.ERR_OPTION)
     return scale * known[0], scale * known[1]
 
 
 def _remark_slope(surface: _Surface, report: Report) -> None:
-    slope = surface.rms_slope()
-    if _LEAST_SLOPE <= slope <= _LARGEST_SLOPE or slope == 0.0:
-        return
-    wrong = "too steep for a half-space" if slope > _LARGEST_SLOPE else "flatter than surfaces mostly are"
-    report.take(
-        Status.DONE,
-        f"the mean slope of the surface is {short_text(slope)}, {wrong}: if its heights have another unit than its "
-        "spacings, give --height-scale",
-    )
+    slope = surface.rms_slope
+    if slope > _LARGEST_SLOPE or 0.0 < slope < _LEAST_SLOPE:
+        wrong = "too steep for a half-space" if slope > _LARGEST_SLOPE else "flatter than surfaces mostly are"
+        remedy = "if its heights have another unit than its spacings, give --height-scale"
+        report.take(Status.DONE, f"the mean slope of the surface is {short_text(slope)}, {wrong}: {remedy}")
 
 
 # ---- what is written
@@ -240,12 +187,12 @@ def _remark_slope(surface: _Surface, report: Report) -> None:
 
 def _surface_comments(given: Options, surface: _Surface, words: dict[str, str], e_star: float) -> list[str]:
     ny, nx = surface.height.shape
-    unit = "" if surface.unit is None else f", unit of the file: {surface.unit}"
+    unit = "" if surface.file.unit is None else f", unit of the file: {surface.file.unit}"
     spacings = f"{short_text(surface.spacing[0])} and {short_text(surface.spacing[1])}"
+    rms = f"rms height {short_text(surface.height.std())}, rms slope {short_text(surface.rms_slope)}"
     return [
-        f"surface: {given.file('surface')}, {nx} x {ny} heights, {surface.filled} of them filled{unit}",
-        f"spacings: {spacings}, rms height {short_text(surface.rms_height())}, rms slope "
-        f"{short_text(surface.rms_slope())}, level: {words['level']}",
+        f"surface: {given.file('surface')}, {nx} x {ny} heights, {surface.file.filled} of them filled{unit}",
+        f"spacings: {spacings}, {rms}, level: {words['level']}",
         f"e_star: {short_text(e_star)}, boundary: {words['boundary']}, element: {words['element']}",
     ]
 
