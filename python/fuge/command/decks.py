@@ -249,14 +249,17 @@ def _drawn_mesh(given: Options) -> fuge.Mesh:
             raise
         reason = "needs --mesh, an input file of Abaqus or CalculiX with the nodes and elements"
         raise UsageError(f"--field {given.file('field')} {reason}") from None
-    types = [mesh.element_type(k) for k in range(mesh.element.size)]
-    kept = [k for k, word in enumerate(types) if not word.startswith(_NOT_DRAWN)]
-    nodes = np.full((len(kept), np.diff(mesh.first).max(initial=1)), -1, dtype=np.intc)
-    for row, k in zip(nodes, kept):
-        row[: mesh.first[k + 1] - mesh.first[k]] = mesh.connection[mesh.first[k] : mesh.first[k + 1]]
-    drawn = fuge.Mesh.from_arrays(mesh.position, nodes, [types[k] for k in kept])
-    drawn.node = mesh.node
-    return drawn
+    kept = np.array([not word.startswith(_NOT_DRAWN) for word in mesh.element_types.tolist()], dtype=bool)
+    counts = np.diff(mesh.first)
+    return replace(
+        mesh,
+        element=mesh.element[kept],
+        element_types=mesh.element_types[kept],
+        first=np.append(0, np.cumsum(counts[kept])).astype(np.intc),
+        connection=mesh.connection[np.repeat(kept, counts)],
+        elements_of_sets={},
+        faces_of_surfaces={},
+    )
 
 
 def _node_fields(model: _Model, cases: fuge.Cases, mesh: fuge.Mesh) -> dict[str, Array]:

@@ -28,8 +28,8 @@ _DEPENDENT = (
     "together; prescribe the counter-body by --approach, or hold the body by --fixed"
 )
 _IDLE = (
-    "a rigid motion of the body that floats, or of the counter-body, moves no point that may touch: exclude fewer points, "
-    "or hold the body by --fixed"
+    "a rigid motion of the body that floats, or of the counter-body, moves no point that may touch: exclude fewer "
+    "points, or hold the body by --fixed"
 )
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-# Options stand in the columns of _SYNTAX, what they mean behind them; a line without blanks before it is a title if the
-# line above is empty, and a remark elsewhere.
+# Blocks between blank lines: what the command is, how it is called, and groups with a title. Options stand in the
+# columns of _SYNTAX, what they mean behind them; other lines of a group are remarks.
 HELP = """\
 fuge: contact forces, gaps and pressures of elastic bodies, from files to a table
 
@@ -16,8 +16,8 @@ fuge: contact forces, gaps and pressures of elastic bodies, from files to a tabl
   fuge JOB
 
 Job files
-JOB is a file with one option a line; hyphens are not needed, comments begin with #, and paths
-begin at its folder. More options may stand before it and behind it.
+JOB has one option a line; hyphens are not needed, comments begin with #, and paths begin at its
+folder. More options may stand before it and behind it
 
 Meshes in contact
   --body NAME             begins a body; without it a second --mesh or --stiffness does, and its
@@ -132,25 +132,24 @@ Results
   --verbose               each step, with its time, on standard error
   --version               version (-V), and the libraries in it with their licences
   --help                  this list (-h)
+Units are yours, as long as they agree. Tables are CSV with comments after #, written whole or
+not at all. Warnings are on standard error and in the table
 
-Units are yours, as long as they agree. Tables are CSV with comments after #. Warnings are on
-standard error and in the table.
-
-Exit status 0: done; 2: an option is wrong; 3: a file or a value is wrong; 4: there is no
-solution, or some load cases have none, and the table has the others; 5: a warning, with
---strict; 1: an unexpected error; 130: Ctrl-C.
+Exit status
+0: done; 2: an option is wrong; 3: a file or a value is wrong; 4: there is no solution, or some
+load cases have none, and the table has the others; 5: a warning, with --strict; 1: an
+unexpected error; 130: Ctrl-C
 """
 
 _SYNTAX = slice(2, 26)
 
 
-def entries() -> list[tuple[str, str]]:
-    """All options as they are written, and what they mean, line by line."""
-    lines = [line for line in HELP.splitlines() if line.startswith("  --")]
-    return [(line[_SYNTAX].strip(), line[_SYNTAX.stop :]) for line in lines]
+def split_entry(line: str) -> tuple[str, str]:
+    """An option as it is written, empty unless the line begins one, and what the line says."""
+    return line[_SYNTAX].strip() if line.startswith("  --") else "", line[_SYNTAX.stop if line[0] == " " else 0 :]
 
 
-_WORDS = [syntax.split() for syntax, _ in entries()]
+_WORDS = [split_entry(line)[0].split() for line in HELP.splitlines() if line.startswith("  --")]
 
 # Names of the options without their hyphens.
 NAMES = sorted({words[0][2:] for words in _WORDS})

@@ -165,7 +165,8 @@ def _spacing(given: Options, known: tuple[float, float] | None, scale: float) ->
             raise given.first("spacing").refuse("one or two lengths are needed, along x and along y")
         return values[0], values[-1]
     if known is None:
-        remedy = "give --spacing, one or two lengths, or comments # spacing_x = .. and # spacing_y = .. before the heights"
+        comments = "comments # spacing_x = .. and # spacing_y = .. before its heights"
+        remedy = f"give --spacing, one or two lengths, or {comments}"
         raise CommandError(f'"{path}" does not say how far apart its points are: {remedy}', Status.ERR_OPTION)
     if given.has("spacing"):
         own = f"spacings of its own, {short_text(known[0])} and {short_text(known[1])}"
