@@ -190,7 +190,7 @@ REFUSED = (
     (f"{LOADED} --output no_such_folder/a.csv", '"no_such_folder/a.csv" cannot be opened', 3),
     (f"{LOADED} --output .", '"." cannot be opened', 3),
     (f"{LOADED} --output a.csv --json ./a.csv", "--output a.csv: the same file as of --json", 2),
-    (f"{LOADED} --plot a.nonsense", "--plot a.nonsense: .*not supported", 2),
+    (f"{LOADED} --plot a.nonsense", "--plot a.nonsense: no kind of picture; one of .*.png", 2),
 )
 
 FILES = {

@@ -6,16 +6,15 @@ import importlib
 import sys
 import warnings
 from collections.abc import Sequence
-from typing import Any
 
 import fuge
 from fuge.command import errors
 from fuge.command.checks import check_options, is_output
 from fuge.command.errors import UsageError
 from fuge.command.option_table import HELP
-from fuge.command.options import Options
+from fuge.command.options import Options, Setting
 from fuge.command.run import Log, Outcome, print_error
-from fuge.command.tables import write_lines
+from fuge.command.tables import write_lines, written_error
 from fuge.errors import Error
 
 # The module and the function of each kind of problem, which are imported when they are needed.
@@ -33,7 +32,7 @@ def main(words: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         # Names of files keep their bytes.
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="surrogateescape")
+            stream.reconfigure(encoding=sys.getfilesystemencoding(), errors="surrogateescape")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -63,7 +62,7 @@ def _run(words: Sequence[str]) -> int:
         return errors.DONE
     kind = check_options(given)
     if given.has("plot"):
-        _pyplot()
+        _check_picture(given.first("plot"))
     module, name = _SOLVERS[kind]
     with Log(given.has("verbose")) as log:
         outcome: Outcome = getattr(importlib.import_module(f"fuge.command.{module}"), name)(given, log)
@@ -90,27 +89,27 @@ def _write(given: Options, outcome: Outcome) -> None:
         write_lines(given.file("output"), outcome.table.lines())
 
 
+def _check_picture(setting: Setting) -> None:
+    """Refuse a picture without matplotlib, or of a kind that it does not know, before anything is solved."""
+    try:
+        importlib.import_module("matplotlib").use("Agg")
+        kinds = importlib.import_module("matplotlib.figure").Figure().canvas.get_supported_filetypes()
+    except ImportError:
+        raise UsageError("--plot needs matplotlib, which cannot be imported: pip install matplotlib") from None
+    ending = setting.value.rpartition(".")[2].lower()
+    if ending not in kinds:
+        raise setting.refuse(f"no kind of picture; one of {', '.join(f'.{kind}' for kind in sorted(kinds))} is needed")
+
+
 def _draw(path: str, outcome: Outcome) -> None:
     if outcome.draw is None:
         raise UsageError("--plot: there is no picture of this kind of problem")
-    pyplot = _pyplot()
-    figure, axes = pyplot.subplots(layout="constrained")
+    figure, axes = importlib.import_module("matplotlib.pyplot").subplots(layout="constrained")
+    outcome.draw(axes)
     try:
-        outcome.draw(axes)
         figure.savefig(path, dpi=150)
-    except (OSError, ValueError) as failure:
-        raise UsageError(f"--plot {path}: {failure}") from None
-    finally:
-        pyplot.close(figure)
-
-
-def _pyplot() -> Any:
-    """pyplot of matplotlib, which draws to files; UsageError where it is not installed."""
-    try:
-        importlib.import_module("matplotlib").use("Agg")
-        return importlib.import_module("matplotlib.pyplot")
-    except ImportError:
-        raise UsageError("--plot needs matplotlib, which cannot be imported: pip install matplotlib") from None
+    except OSError as failure:
+        raise written_error(path, failure) from None
 
 
 def _version_lines() -> list[str]:

@@ -131,7 +131,7 @@ def _write_file(path: str, lines: Iterable[str]) -> None:
     except OSError as failure:
         if os.path.isfile(path):
             os.remove(os.path.realpath(path))
-        raise _failed(quoted_path(path), "written", failure) from None
+        raise written_error(path, failure) from None
 
 
 def _write_all(file: TextIO, lines: Iterable[str]) -> None:
@@ -147,6 +147,11 @@ def open_file(path: str, mode: Literal["w", "a"]) -> TextIO:
         return open(path, mode, encoding="utf-8", errors="surrogateescape", newline="\n")
     except (OSError, ValueError) as failure:
         raise _failed(quoted_path(path), "opened", failure) from None
+
+
+def written_error(path: str, failure: Exception) -> FileError:
+    """The error that a file cannot be written."""
+    return _failed(quoted_path(path), "written", failure)
 
 
 def _failed(what: str, verb: str, failure: Exception) -> FileError:
