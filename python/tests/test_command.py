@@ -5,6 +5,7 @@ import io
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -16,6 +17,7 @@ import numpy as np
 
 import fuge
 from fuge.command import main
+from fuge.command.man import man_page
 from fuge.command.option_table import NAMES
 
 HERE = Path(__file__).resolve().parent
@@ -29,39 +31,23 @@ def words(text):
     return [word.replace("@", MTX) for word in text.split()]
 
 
-def numbers_equal(found, expected):
-    """Whether two tables have the same heading, words and, to 1e-12 of the largest of a column, numbers."""
-    tables = []
-    for text in (found, expected):
-        rows = [line.split(",") for line in text.splitlines() if line and not line.startswith("#")]
-        tables.append((rows[0], [list(column) for column in zip(*rows[1:])]))
-    (names, columns), (other_names, others) = tables
-    if names != other_names or len(columns) != len(others):
-        return False
-    for column, other in zip(columns, others):
-        try:
-            values = np.array(column, dtype=float), np.array(other, dtype=float)
-        except ValueError:
-            if column != other:
-                return False
-            continue
-        if values[0].shape != values[1].shape or np.any(abs(values[0] - values[1]) > 1e-12 * abs(values[1]).max()):
-            return False
-    return True
+def cells(text):
+    return [line.split(",") for line in text.splitlines() if line and line[0] != "#"]
 
 
 class CommandCase(unittest.TestCase):
-    """Each test in a folder of its own."""
+    """Each test in a folder of its own, with these files."""
+
+    FILES = {}
 
     def setUp(self):
-        self.folder = Path(self.enterContext_(tempfile.TemporaryDirectory()))
-        before = os.getcwd()
-        self.addCleanup(os.chdir, before)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.addCleanup(os.chdir, os.getcwd())
+        self.folder = Path(folder.name)
         os.chdir(self.folder)
-
-    def enterContext_(self, context):
-        self.addCleanup(context.__exit__, None, None, None)
-        return context.__enter__()
+        for name, text in self.FILES.items():
+            Path(name).write_text(text)
 
     def run_command(self, *arguments):
         """Exit code, standard output and standard error."""
@@ -69,6 +55,23 @@ class CommandCase(unittest.TestCase):
         with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
             code = main([str(argument) for argument in arguments])
         return code, output.getvalue(), errors.getvalue()
+
+    def assert_table(self, found, name):
+        """The heading and words of a golden table and, to 1e-12 of the largest of a column, its numbers."""
+        rows, expected = cells(found), cells((GOLDEN / f"{name}.csv").read_text())
+        self.assertEqual((rows[0], len(rows)), (expected[0], len(expected)))
+        for column, other in zip(zip(*rows[1:]), zip(*expected[1:])):
+            try:
+                values = np.array([column, other], dtype=float)
+            except ValueError:
+                self.assertEqual(column, other)
+            else:
+                np.testing.assert_allclose(values[0], values[1], 0.0, 1e-12 * abs(values[1]).max())
+
+    def assert_refusals(self, table):
+        for arguments, message, code in table:
+            with self.subTest(arguments):
+                self.assert_refused(words(arguments), message, code)
 
     def assert_refused(self, arguments, message, code):
         """No table is written, and the message is on one line."""
@@ -93,8 +96,6 @@ BEAM = (
 BLOCK = BEAM.replace("beam", "block")
 LOADED = f"{TWO} --load 2"
 PAIR = "--mesh a.inp --stiffness a.sti --pair A:B"
-
-LIMITS = "%%MatrixMarket matrix array real general\n2 1\n10\n-1\n"
 
 # Tables, their arguments, and tables of displacements. The paper's Tabelle 1, the load given in several ways; then laws
 # of the points; statics of a cantilever on a prop; equilibrium of a block that only the supports hold.
@@ -194,7 +195,7 @@ REFUSED = (
 )
 
 FILES = {
-    "limits.mtx": LIMITS,
+    "limits.mtx": "%%MatrixMarket matrix array real general\n2 1\n10\n-1\n",
     "touching.mtx": "%%MatrixMarket matrix array real general\n2 1\n0\n0.2\n",
     "one_place.mtx": "%%MatrixMarket matrix array real general\n2 2\n1\n1\n1\n1\n",
     "banner.mtx": "%%MatrixMarket matrix array complex general\n2 2\n0.2 0\n0.1 0\n0.1 0\n0.2 0\n",
@@ -212,25 +213,19 @@ FILES = {
 
 
 class Matrices(CommandCase):
-    def setUp(self):
-        super().setUp()
-        for name, text in FILES.items():
-            Path(name).write_text(text)
+    FILES = FILES
 
     def test_tables(self):
         for name, arguments, field in GIVEN:
             with self.subTest(arguments):
                 more = ["--field", "field.csv"] if field else []
                 found = self.table(*words(arguments), *more)
-                self.assertTrue(numbers_equal(found, (GOLDEN / f"{name}.csv").read_text()), found)
+                self.assert_table(found, name)
                 if field:
-                    found = Path("field.csv").read_text()
-                    self.assertTrue(numbers_equal(found, (GOLDEN / f"{field}.csv").read_text()), found)
+                    self.assert_table(Path("field.csv").read_text(), field)
 
     def test_refusals(self):
-        for arguments, message, code in REFUSED:
-            with self.subTest(arguments):
-                self.assert_refused(words(arguments), message, code)
+        self.assert_refusals(REFUSED)
 
     def test_form_of_numbers(self):
         head, *lines = self.table(*words(f"{TWO} --load 2e-120")).splitlines()[-3:]
@@ -242,7 +237,7 @@ class Matrices(CommandCase):
         small, columns = "[1-9][.][0-9]+E-0(1[5-9]|2[0-9])", "point,force,gap,state,force_bound,gap_bound,proved\n"
         touching = "--gap touching.mtx --load"
         for arguments, pattern, remark in (
-            (LOADED, rf", bound: +{small}\n# largest force: from .* to .*\n{columns}1,.*,contact, {small}, .*,yes\n", ""),
+            (LOADED, rf", bound: +{small}\n# largest .*: from .* to .*\n{columns}1,.*,contact, {small}, .*,yes\n", ""),
             (f"{TWO} --approach 4d-1", r"# motion 1: .*, bound: +0[.]0+E[+]000\n", ""),
             (f"{BLOCK} --floats", rf"# status: 0, done\n(.*\n)*{columns}([1-3],.*,yes\n)+$", ""),
             (f"--alpha @two_nodes_alpha.mtx {touching} 2", r"# message: .*point 2\n(.*\n)*2,.*,no\n", "note"),
@@ -263,8 +258,7 @@ class Matrices(CommandCase):
             fuge.write_matrix("gap.mtx", gap.reshape(-1, 1))
             for alpha in ([], ["--alpha", "0"]):
                 found = self.table(*alpha, *words("--gap gap.mtx --compliance 0.5 --approach 0.25"))
-                rows = [line.split(",") for line in found.splitlines() if line[0].isdigit()]
-                force = np.array([row[1] for row in rows], dtype=float)
+                force = np.array([row[1] for row in cells(found)[1:]], dtype=float)
                 np.testing.assert_allclose(force, np.maximum(0.25 - gap, 0.0) / 0.5, atol=1e-12)
             load = force.sum()
             found = self.table(*words(f"--gap gap.mtx --compliance 0.5 --load {load:.17g}"))
@@ -301,6 +295,13 @@ class HelpAndVersion(CommandCase):
         for name in NAMES:
             self.assertNotIn("unknown option", self.run_command(f"--{name}")[2])
 
+    def test_man_page(self):
+        page = man_page()
+        self.assertEqual(sorted(set(re.findall(r"\n\.B --([-a-z]+)", page.replace("\\-", "-")))), NAMES)
+        if shutil.which("groff"):
+            done = subprocess.run(["groff", "-man", "-ww", "-Tascii"], input=page.encode(), capture_output=True)
+            self.assertEqual((done.returncode, done.stderr), (0, b""))
+
     def test_version(self):
         self.assertRegex(self.table("-V"), rf"^fuge {fuge.__version__}\ntransforms: .*FFTW.*\nstiffness matrices: ")
 
@@ -324,10 +325,8 @@ class Ends(CommandCase):
         """Exit code and messages of the command, `fuge` in the text of a shell with standard output as it likes."""
         command = f"'{sys.executable}' -m fuge {' '.join(words(' '.join(arguments) or LOADED))}"
         environment = {**os.environ, "PYTHONPATH": str(HERE.parent)}
-        done = subprocess.run(
-            ["bash", "-o", "pipefail", "-c", text.replace("fuge", command)], capture_output=True, text=True,
-            env=environment, check=False,
-        )
+        shell = ["bash", "-o", "pipefail", "-c", text.replace("fuge", command)]
+        done = subprocess.run(shell, capture_output=True, text=True, env=environment, check=False)
         return done.returncode, done.stdout, done.stderr
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "there is no /dev/full")
@@ -343,12 +342,15 @@ class Ends(CommandCase):
 class SameFiles(CommandCase):
     """No result overwrites an input, under whatever name, and none is lost without an error."""
 
+    FILES = {
+        "alpha.mtx": Path(f"{MTX}two_nodes_alpha.mtx").read_text(),
+        "gap.mtx": Path(f"{MTX}two_nodes_gap.mtx").read_text(),
+        "job.txt": "alpha alpha.mtx\ngap gap.mtx\nload 2\n",
+        "names.txt": "alpha alpha.mtx\ngap gap.mtx\nload 2\noutput my contact table.csv\n",
+    }
+
     def setUp(self):
         super().setUp()
-        for name in ("alpha", "gap"):
-            Path(f"{name}.mtx").write_bytes(Path(f"{MTX}two_nodes_{name}.mtx").read_bytes())
-        Path("job.txt").write_text("alpha alpha.mtx\ngap gap.mtx\nload 2\n")
-        Path("names.txt").write_text("alpha alpha.mtx\ngap gap.mtx\nload 2\noutput my contact table.csv\n")
         Path("within").mkdir()
         for link, target in (("soft.mtx", "alpha.mtx"), ("softer.mtx", "soft.mtx"), ("other.csv", "new.csv")):
             os.symlink(target, link)

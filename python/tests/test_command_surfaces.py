@@ -5,9 +5,9 @@ import unittest
 from pathlib import Path
 
 import numpy as np
-from test_command import DATA, CommandCase, words
 
 import fuge
+from test_command import DATA, CommandCase, cells, words
 
 # A ball, by Hertz; N and mm.
 CELLS, RADIUS, E_STAR, LOAD, STEP = 121, 10.0, 115385.0, 100.0, 0.0035
@@ -45,7 +45,7 @@ BALL_1 = "--surface ball.txt --load 1"
 REFUSED = (
     (f"--surface no_such.sdf {FREE}", '"no_such.sdf" cannot be opened', 3),
     (f"--surface cut.txt --spacing 1 {FREE}", r'"cut.txt", line 2: 3 value\(s\), but the first row has 4', 3),
-    (f"--surface holes.txt {FREE}", '"holes.txt", line 3: column 1 has no height.*: let such points be filled by --fill', 3),
+    (f"--surface holes.txt {FREE}", '"holes.txt", line 3: column 1 has no height.* be filled by --fill', 3),
     (f"--surface plain.txt {FREE}", '"plain.txt" does not say how far apart its points are: give --spacing', 2),
     (f"--surface ball.txt --spacing 1 {FREE}", '--spacing: "ball.txt" has spacings of its own, 3.50000E-003 and', 2),
     (f"--surface plain.txt --spacing 1,2,3 {FREE}", "--spacing 1,2,3: one or two lengths", 2),
@@ -74,7 +74,7 @@ REFUSED = (
 
 
 def write_files():
-    """The ball with spacings in the file, with none, with holes, tilted, in columns in um, as SDF in metres; the wave."""
+    """The ball with spacings in the file, none, holes, tilted, in columns in um, as SDF in metres; the wave."""
     spacing = f"# spacing_x = {STEP}\n# spacing_y = {STEP}\n"
     holes = np.full(BALL.shape, np.nan)
     holes[1:, 1:] = BALL[1:, 1:]
@@ -92,7 +92,7 @@ def write_files():
         ("tilted.txt", spacing, BALL + 0.01 * x - 0.02 * y, ""),
         ("columns.txt", "", np.column_stack([x.ravel(), y.ravel(), 1e3 * BALL.ravel()]), ""),
         ("ball.sdf", sdf, 1e-3 * BALL, "*\n"),
-        ("wave.txt", f"# spacing_x = {1 / WAVE_CELLS}\n# spacing_y = {1 / WAVE_CELLS}\n", np.tile(wave, (WAVE_ROWS, 1)), ""),
+        ("wave.txt", spacing.replace(str(STEP), str(1 / WAVE_CELLS)), np.tile(wave, (WAVE_ROWS, 1)), ""),
         ("cut.txt", "1 2 3 4\n1 2 3\n", np.empty((0, 0)), ""),
     ):
         lines = "".join(" ".join(f"{value:.16e}" for value in row) + "\n" for row in heights)
@@ -106,9 +106,9 @@ class Surfaces(CommandCase):
         write_files()
 
     def rows(self, text, heading):
-        lines = [line for line in text.splitlines() if line and not line.startswith("#")]
-        self.assertEqual(lines[0], heading)
-        return np.array([line.split(",") for line in lines[1:]], dtype=float)
+        names, *rows = cells(text)
+        self.assertEqual(names, heading.split(","))
+        return np.array(rows, dtype=float)
 
     def test_ball(self):
         hertz = fuge.hertz_ellipse(RADIUS, RADIUS, E_STAR, LOAD)
@@ -159,9 +159,7 @@ class Surfaces(CommandCase):
             self.assertAlmostEqual(row[8] / largest, 1.0, delta=2e-3)
 
     def test_refusals(self):
-        for arguments, message, code in REFUSED:
-            with self.subTest(arguments):
-                self.assert_refused(words(arguments), message, code)
+        self.assert_refusals(REFUSED)
 
     def test_notes_and_bounds(self):
         """A rim, heights in wrong units, a load that rounds to zero; bounds, and all states proved."""
@@ -181,10 +179,8 @@ class Surfaces(CommandCase):
                 self.assertRegex(output, pattern)
 
     def test_manual(self):
-        output = self.table(
-            *words(f"--surface {DATA}/ground.sdf --scale 1e3 --fill --pressure 50,100,200 --young 210000 --poisson 0.3"),
-            *words("--field ground.vti --plot ground.png"),
-        )
+        surface = f"--surface {DATA}/ground.sdf --scale 1e3 --fill --young 210000 --poisson 0.3"
+        output = self.table(*words(f"{surface} --pressure 50,100,200 --field ground.vti --plot ground.png"))
         self.assertRegex(
             output, r"40 x 30 heights, 9 of them filled.*\n(.*\n)*.*,16, 8\.0000.*, 1\.33333.*\n.*,24, .*\n.*,37, "
         )
