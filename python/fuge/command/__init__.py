@@ -48,7 +48,7 @@ def main(words: Sequence[str] | None = None) -> int:
         print_error("fuge: there is not enough memory")
         return errors.UNSOLVED
     except Exception as failure:
-        print_error(f"fuge: unexpected error, {type(failure).__name__}: {failure}")
+        print_error(f"fuge: unexpected error, {type(failure).__name__}: {' '.join(str(failure).split())}")
         return errors.UNEXPECTED
 
 
@@ -102,10 +102,13 @@ def _check_picture(setting: Setting) -> None:
 
 
 def _draw(path: str, outcome: Outcome) -> None:
-    if outcome.draw is None:
-        raise UsageError("--plot: there is no picture of this kind of problem")
     figure, axes = importlib.import_module("matplotlib.pyplot").subplots(layout="constrained")
-    outcome.draw(axes)
+    if outcome.draw is not None:
+        outcome.draw(axes)
+    else:
+        (force,) = (column.values for column in outcome.table.columns if column.name == "force")
+        axes.plot(range(1, len(force) + 1), force, drawstyle="steps-mid")
+        axes.set(xlabel="point", ylabel="force")
     try:
         figure.savefig(path, dpi=150)
     except OSError as failure:

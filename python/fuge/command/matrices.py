@@ -47,7 +47,7 @@ def solve_influence(given: Options, log: Log) -> Outcome:
         else:
             solver.set_approach(given.first("approach").number())
         contact, proof = solve_contact(given, solver, report)
-    return Outcome(_table(given, contact, proof, report), draw=_picture(contact))
+    return Outcome(_table(given, contact, proof, report))
 
 
 def solve_body(given: Options, log: Log) -> Outcome:
@@ -76,8 +76,7 @@ def solve_body(given: Options, log: Log) -> Outcome:
         report.take_all(recovery)
         degrees = Column("degree of freedom", range(1, displacement.size + 1))
         field = Table([degrees, Column("displacement", displacement)])
-    table = _table(given, contact, proof, report)
-    return Outcome(table, lambda path: write_lines(path, field.lines()), _picture(contact))
+    return Outcome(_table(given, contact, proof, report), lambda path: write_lines(path, field.lines()))
 
 
 def solve_contact(
@@ -301,13 +300,3 @@ def _table(given: Options, contact: fuge.Contact, proof: fuge.Proof | None, repo
         columns += [Column("force_bound", proof.force_bound), Column("gap_bound", proof.gap_bound)]
         columns.append(Column("proved", np.where(proof.proved, "yes", "no")))
     return Table(columns, comments)
-
-
-def _picture(contact: fuge.Contact) -> Any:
-    """A function that draws the forces of the points into axes."""
-
-    def draw(axes: Any) -> None:
-        axes.plot(range(1, contact.force.size + 1), contact.force, drawstyle="steps-mid")
-        axes.set(xlabel="point", ylabel="force")
-
-    return draw

@@ -138,8 +138,8 @@ def caught() -> Iterator[list[Warning]]:
 class Outcome:
     """The results of a run.
 
-    `write_field` and `draw` get the path of --field, and axes of matplotlib; `failure` tells of load cases without a
-    solution.
+    `write_field` and `draw` get the path of --field, and axes of matplotlib; without `draw` the forces of the table are
+    drawn. `failure` tells of load cases without a solution.
     """
 
     table: Table
