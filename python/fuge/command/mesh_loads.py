@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from functools import partial
 from typing import NamedTuple, Optional
@@ -11,48 +10,54 @@ import numpy as np
 
 from fuge.command.checks import check_input
 from fuge.command.face_forces import pressure_forces
-from fuge.command.mesh_model import AXES, MeshModel, Refuse, is_plane
+from fuge.command.mesh_model import AXES, MeshBody, MeshModel, Refuse, dimensions_of, is_ring
 from fuge.command.options import Options, Setting
 from fuge.errors import FileError, Status
-from fuge.formats.keyword import Block, read_blocks, split_items
-from fuge.formats.text import Reason, TextFile, quoted_path, read_text, value
+from fuge.formats.keyword import read_blocks, split_items
+from fuge.formats.keyword_rules import parameters_of
+from fuge.formats.text import Place, Reason, quoted_path, read_text, refusal, value
 
 _DIRECTIONS = {str(k + 1): k for k in range(len(AXES))}
-_AXES = {**_DIRECTIONS, **{letter: "xyz".index(letter.lower()) for letter in "xyzXYZ"}}
+_LETTERS = {**_DIRECTIONS, **{letter: "xyz".index(letter.lower()) for letter in "xyzXYZ"}}
 
 # Headings of the columns of a table.
 _HEADINGS = {
     **dict.fromkeys(("node", "nodes"), 0),
-    **dict.fromkeys(("axis", "axes", "direction", "directions", "dof"), 1),
-    **dict.fromkeys(("value", "force", "load", "displacement", "u", "f"), 2),
+    **dict.fromkeys(("axis", "axes", "direction", "directions"), 1),
+    **dict.fromkeys(("value", "force", "load", "displacement"), 2),
 }
-
-# Keywords of input files that neither hold nor load what *BOUNDARY and *CLOAD do not.
-_HARMLESS = frozenset(
-    """
-    HEADING PREPRINT RESTART NODE NSET ELEMENT ELSET SURFACE ORIENTATION MATERIAL ELASTIC DENSITY
-    SOLIDSECTION SHELLSECTION MEMBRANESECTION BEAMSECTION AMPLITUDE STEP ENDSTEP STATIC OUTPUT NODEOUTPUT ELEMENTOUTPUT
-    CONTACTOUTPUT ENERGYOUTPUT NODEFILE ELFILE CONTACTFILE NODEPRINT ELPRINT CONTACTPRINT FILEFORMAT MONITOR CONTROLS
-    CONTACTPAIR SURFACEINTERACTION SURFACEBEHAVIOR MATRIXGENERATE MATRIXOUTPUT SUBSTRUCTUREGENERATE
-    """.split()
-)
-# Parameters that change nothing, with their values.
-_PLAIN = {"OP": ("NEW", "MOD"), "TYPE": ("DISPLACEMENT",)}
 
 
 class _Kind(NamedTuple):
-    """What a support and a load differ in."""
+    """What supports and loads differ in."""
 
     keyword: str
+    # Columns of a line, at least.
     least: int
     example: str
-    needed: str
     line: str
+    needed: str
+    # Keywords of input files that are another option's.
+    skipped: frozenset[str]
 
 
-_SUPPORT = _Kind("BOUNDARY", 2, "hub.BOTTOM:xyz or hub.17:z=0.1", "perhaps a displacement are needed, like 17,z,0.1",
-                 "17,z: a support")  # fmt: skip
-_LOAD = _Kind("CLOAD", 3, "hub.TOP:z=-100", "a force are needed, like 17,z,-100", "17,z,-100: a load")
+_CONTACT = ("CONTACTPAIR", "SURFACEINTERACTION", "SURFACEBEHAVIOR")
+_SUPPORT = _Kind(
+    "BOUNDARY",
+    2,
+    "hub.BOTTOM:xyz or hub.17:z=0.1",
+    "17,z: a support",
+    "nodes, an axis and perhaps a displacement are needed, like 17,z,0.1",
+    frozenset((*_CONTACT, "CLOAD", "DLOAD", "DSLOAD")),
+)
+_LOAD = _Kind(
+    "CLOAD",
+    3,
+    "hub.TOP:z=-100",
+    "17,z,-100: a load",
+    "nodes, an axis and a force are needed, like 17,z,-100",
+    frozenset((*_CONTACT, "BOUNDARY")),
+)
 
 
 class _Condition(NamedTuple):
@@ -88,7 +93,7 @@ def take_conditions(given: Options, model: MeshModel) -> None:
 def _apply(condition: _Condition, kind: _Kind, model: MeshModel) -> None:
     refuse, number = condition.refuse, condition.value or 0.0
     nodes = model.find_nodes(condition.nodes, refuse)
-    _check_elastic(model, nodes[0], refuse)
+    _check_elastic(model.bodies[model.owner[nodes[0]]], refuse)
     for axis in condition.axes:
         row = model.row[nodes, axis]
         lost, row = nodes[row < 0], row[row >= 0]
@@ -107,36 +112,55 @@ def _apply(condition: _Condition, kind: _Kind, model: MeshModel) -> None:
         model.held[row], model.displacement[row] = True, number
 
 
-def _check_elastic(model: MeshModel, node: int, refuse: Refuse) -> None:
-    body = model.bodies[model.owner[node]]
+def _check_elastic(body: MeshBody, refuse: Refuse) -> None:
     if body.stiffness is None:
         raise refuse(f"body {body.name} has no --stiffness: it is rigid and stands still")
 
 
-def _condition(refuse: Refuse, nodes: str, axes: Sequence[int], number: str | None) -> _Condition:
+def _condition(refuse: Refuse, nodes: str, axes: Sequence[int] | str, number: str | None) -> _Condition:
+    """A condition from words; axes are letters or numbers, one or several."""
+    if isinstance(axes, str):
+        if not axes or not set(axes) <= set(_LETTERS):
+            raise refuse(f'"{axes}" is no axis: x, y, z, or 1 to 6')
+        axes = sorted({_LETTERS[letter] for letter in axes})
     try:
         return _Condition(refuse, nodes, axes, None if number is None else value(number))
     except Reason:
         raise refuse(f'a number is needed, not "{number}"') from None
 
 
-def _axes(refuse: Refuse, word: str) -> list[int]:
-    """Axes by letters or numbers, one or several."""
-    if not word or not set(word) <= set(_AXES):
-        raise refuse(f'"{word}" is no axis: x, y, z, or 1 to 6')
-    return sorted({_AXES[letter] for letter in word})
-
-
 def _word(setting: Setting, kind: _Kind) -> _Condition:
     """NODES:AXES or NODES:AXES=VALUE."""
     nodes, _, rest = setting.value.rpartition(":")
+    axes, equals, number = rest.partition("=")
     if not nodes:
         raise setting.refuse(f"nodes and an axis are needed, like {kind.example}")
-    axes, equals, number = rest.partition("=")
-    condition = _condition(setting.refuse, nodes, _axes(setting.refuse, axes), number if equals else None)
+    condition = _condition(setting.refuse, nodes, axes, number if equals else None)
     if kind is _LOAD and not equals:
         raise setting.refuse(f"a force is needed, like {kind.example}")
     return condition
+
+
+def _press(setting: Setting, model: MeshModel) -> None:
+    """SURFACE=P, positive into the body. Along a direction that the stiffness lacks a support takes the force."""
+    surface, _, word = setting.value.rpartition("=")
+    try:
+        pressure = value(word if surface else "")
+    except Reason:
+        raise setting.refuse("a surface and a pressure are needed, like hub.TOP=2.5") from None
+    faces = model.find_faces(surface, setting.refuse)
+    _check_elastic(faces.body, setting.refuse)
+    counts = (faces.node >= 0).sum(axis=1)
+    moves = False
+    for count, kind in sorted(set(zip(counts.tolist(), faces.type.tolist()))):
+        face = faces.node[(counts == count) & (faces.type == kind), :count]
+        dimensions = dimensions_of(kind)
+        force = pressure * pressure_forces(model.position[face][..., :dimensions], is_ring(kind))
+        row = model.row[face][..., :dimensions]
+        np.add.at(model.load, row[row >= 0], force[row >= 0])
+        moves = moves or bool((row >= 0).any())
+    if not moves:
+        raise setting.refuse("no node there has a row in the stiffness")
 
 
 # ---- files
@@ -144,116 +168,77 @@ def _word(setting: Setting, kind: _Kind) -> _Condition:
 
 def _file(given: Options, setting: Setting, kind: _Kind, model: MeshModel) -> Iterator[_Condition]:
     """The lines of FILE, or of BODY=FILE, whose nodes are all of that body."""
-    name = setting.value.partition("=")[0]
-    named = (body.name + "." for body in model.bodies if body.name.upper() == name.upper())
-    body = next(named, "") if "=" in setting.value else ""
+    name, equals, _ = setting.value.partition("=")
+    named = (f"{body.name}." for body in model.bodies if equals and body.name.upper() == name.upper())
+    body = next(named, "")
     path = setting.path(len(body))
-    file = read_text(path)
-    lines = (line.strip() for line in file.lines)
-    begin = next((line for line in lines if line and not line.startswith(("**", "#"))), "")
-    is_deck = re.match(r"\*[A-Za-z]", begin) is not None
-    found = 0
-    for condition in _deck(given, path, kind) if is_deck else _table(file, kind):
-        found += 1
-        yield condition._replace(nodes=body + condition.nodes)
-    if found == 0:
+    lines = [line.partition("#")[0].strip(" \r") for line in read_text(path).lines]
+    begin = next((line for line in lines if line and not line.startswith("**")), "")
+    found = _deck(given, path, kind) if begin[:1] == "*" else _table(path, lines, kind)
+    conditions = [condition._replace(nodes=body + condition.nodes) for condition in found]
+    if not conditions:
         raise FileError(f"{quoted_path(path)} has no line like {kind.line}", Status.ERR_FILE)
+    return iter(conditions)
 
 
-def _table(file: TextFile, kind: _Kind) -> Iterator[_Condition]:
+def _table(path: str, lines: Sequence[str], kind: _Kind) -> Iterator[_Condition]:
     """Lines NODES, AXES and VALUE; a heading may give the columns another order."""
     order: list[int] = []
-    for number, line in enumerate(file.lines, 1):
-        text = line.partition("#")[0].strip(" \r")
-        if not text or text.startswith("**"):
+    for number, line in enumerate(lines, 1):
+        if not line or line.startswith("**"):
             continue
-        cells = _cells(text)
-        refuse: Refuse = partial(file.refuse, number)
+        cells = _cells(line)
+        refuse: Refuse = partial(refusal, Place(path, number))
         if not order:
-            order = [0, 1, 2]
-            if all(cell.lower() in _HEADINGS for cell in cells):
-                order = [_HEADINGS[cell.lower()] for cell in cells]
-                if sorted(order) not in ([0, 1], [0, 1, 2]):
-                    raise refuse("the columns are nodes, axes and value, each once")
+            order = [_HEADINGS.get(cell.lower(), -1) for cell in cells]
+            if -1 not in order and sorted(order) != list(range(len(order))):
+                raise refuse("the columns are nodes, axes and value, each once")
+            if -1 not in order:
                 continue
+            order = [0, 1, 2]
         row = dict(zip(order, cells))
-        if not kind.least <= len(cells) <= len(order) or {0, 1} - set(row):
-            raise refuse(f"nodes, an axis and {kind.needed}")
-        yield _condition(refuse, row[0], _axes(refuse, row[1]), row.get(2))
+        if not kind.least <= len(cells) <= len(order) or not {0, 1} <= row.keys():
+            raise refuse(kind.needed)
+        yield _condition(refuse, row[0], row[1], row.get(2))
 
 
-def _cells(text: str) -> list[str]:
-    """The columns of a line, between semicolons, commas or tabs, or else blanks; an empty last one does not count."""
-    separator = next((mark for mark in ";,\t" if mark in text), None)
-    cells = [cell.strip() for cell in text.split(separator)]
-    return cells[:-1] if cells[-1] == "" else cells
+def _cells(line: str) -> list[str]:
+    """What stands between semicolons, commas or tabs, or else blanks; an empty last cell does not count."""
+    separator = next((mark for mark in ";,\t" if mark in line), None)
+    cells = [cell.strip() for cell in line.split(separator)]
+    return cells if cells[-1] else cells[:-1]
 
 
 def _deck(given: Options, path: str, kind: _Kind) -> Iterator[_Condition]:
-    """The lines under *BOUNDARY or *CLOAD of an input file of Abaqus or CalculiX."""
+    """The lines under *BOUNDARY or *CLOAD of an input file of Abaqus or CalculiX, of one load case."""
     paths: list[str] = []
-    step = 0
-    steps: set[int] = set()
+    step, steps = 0, set[int]()
     for block in read_blocks(path, paths):
         step += block.keyword == "STEP"
-        if block.keyword not in (_SUPPORT.keyword, _LOAD.keyword):
-            if block.keyword not in _HARMLESS:
-                reason = f"*{block.keyword} is not read here: leave it out if it neither holds nor loads the body"
-                raise block.refuse(reason)
-        elif block.keyword == kind.keyword and block.lines:
-            _check_parameters(block)
-            if steps - {0, step} or (steps - {step} and block.parameters.get("OP") == "NEW"):
-                raise block.refuse(f"*{block.keyword} of more than one load case: leave those of one")
-            steps.add(step)
-            yield from _data(block, kind)
+        if block.keyword in kind.skipped:
+            continue
+        parameters = parameters_of(block)
+        if block.keyword != kind.keyword or not block.lines:
+            continue
+        if steps - {0, step} or (steps - {step} and parameters.get("OP") == "NEW"):
+            raise block.refuse(f"*{block.keyword} of another load case follows: leave those of one")
+        steps.add(step)
+        for k, line in enumerate(block.lines):
+            yield _data(partial(block.refuse, index=k), split_items(line)[0], kind)
     for included in paths[1:]:
         check_input(given, included, "the same file as of an *INCLUDE")
 
 
-def _check_parameters(block: Block) -> None:
-    for name, setting in block.named(_PLAIN).items():
-        if setting.upper() not in _PLAIN[name]:
-            raise block.refuse(f"{name}={setting} of *{block.keyword} is not supported")
-
-
-def _data(block: Block, kind: _Kind) -> Iterator[_Condition]:
-    for k, line in enumerate(block.lines):
-        items, _ = split_items(line)
-        refuse: Refuse = partial(block.refuse, index=k)
-        if not kind.least <= len(items) <= (3 if kind is _LOAD else 4):
-            raise refuse(f"nodes, an axis and {kind.needed}")
-        ends = items[1:2] if kind is _LOAD or not "".join(items[2:3]) else items[1:3]
-        for word in ends:
-            if word not in _DIRECTIONS:
-                raise refuse(f'"{word}" is no axis: 1 to 6')
-        first, last = (_DIRECTIONS[word] for word in (ends[0], ends[-1]))
-        if last < first:
-            raise refuse("the last direction is less than the first one")
-        number = items[-1] if len(items) == (3 if kind is _LOAD else 4) else None
-        yield _condition(refuse, items[0], range(first, last + 1), number or None)
-
-
-# ---- pressures
-
-
-def _press(setting: Setting, model: MeshModel) -> None:
-    """SURFACE=P, positive into the body. A force along a direction that the stiffness lacks goes into the support."""
-    surface, _, word = setting.value.rpartition("=")
-    try:
-        pressure = value(word if surface else "")
-    except Reason:
-        raise setting.refuse("a surface and a pressure are needed, like hub.TOP=2.5") from None
-    faces = model.find_faces(surface, setting.refuse)
-    if faces.body.stiffness is None:
-        raise setting.refuse(f"body {faces.body.name} has no --stiffness: it is rigid and stands still")
-    nodes = (faces.node >= 0).sum(axis=1)
-    moves = False
-    for count, kind in sorted(set(zip(nodes.tolist(), faces.type.tolist()))):
-        face = faces.node[(nodes == count) & (faces.type == kind), :count]
-        dimensions = 2 if is_plane(kind) else 3
-        force = pressure * pressure_forces(model.position[face][..., :dimensions], kind.startswith("CAX"))
-        row = model.row[face][..., :dimensions]
-        np.add.at(model.load, row[row >= 0], force[row >= 0])
-        moves = moves or bool((row >= 0).any())
-    if not moves:
-        raise setting.refuse("no node there has a row in the stiffness")
+def _data(refuse: Refuse, items: list[str], kind: _Kind) -> _Condition:
+    """Node, direction and force, or node, first and perhaps last direction and displacement."""
+    if not kind.least <= len(items) <= (4 if kind is _SUPPORT else 3):
+        raise refuse(kind.needed)
+    first, number = items[1], items[2] if kind is _LOAD else "".join(items[3:]) or None
+    last = first if kind is _LOAD else "".join(items[2:3]) or first
+    for word in (first, last):
+        if word not in _DIRECTIONS:
+            raise refuse(f'"{word}" is no axis: 1 to 6')
+    axes = range(_DIRECTIONS[first], _DIRECTIONS[last] + 1)
+    if not axes:
+        raise refuse("the last direction is less than the first one")
+    return _condition(refuse, items[0], axes, number)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Callable, NamedTuple, Optional, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
 
+from fuge.element_faces import element_type
 from fuge.errors import Error
 from fuge.formats.text import whole
 from fuge.mesh import Mesh
@@ -28,28 +27,22 @@ _Found = TypeVar("_Found")
 
 @dataclass(frozen=True, eq=False)
 class MeshBody:
-    """A body, rigid without a stiffness matrix; its nodes and rows follow `before` and `rows_before` in the model."""
+    """A body, rigid without a stiffness matrix; `before` of the nodes of the model are those of bodies before it."""
 
     name: str
     mesh: Mesh
     stiffness: Optional[StiffnessFile]
     before: int
-    rows_before: int
-
-    @property
-    def rows(self) -> int:
-        """Number of degrees of freedom."""
-        return 0 if self.stiffness is None else self.stiffness.shape[0]
 
     def nodes(self, name: str) -> NDArray[np.intp] | None:
-        """Indices in the model of the nodes of a set, of a surface, or of the one with this number; None: no such."""
+        """The nodes of a set, of a surface, or the one with this number; None: no such."""
         if name.upper() in self.mesh.node_sets:
             return self.before + self.mesh.node_set(name).astype(np.intp)
         if name.upper() in self.mesh.surfaces:
             members = np.unique(self.mesh.faces(name))
             return self.before + members[members >= 0].astype(np.intp)
         number = whole(name)
-        found = np.flatnonzero(self.mesh.node == number) if number is not None else np.empty(0, dtype=np.intp)
+        found = np.empty(0, dtype=np.intp) if number is None else np.flatnonzero(self.mesh.node == number)
         return self.before + found if found.size else None
 
     def faces(self, name: str) -> Faces | None:
@@ -59,38 +52,26 @@ class MeshBody:
         faces = self.mesh.faces(name)
         width = int((faces >= 0).sum(axis=1).max(initial=0))
         node = np.where(faces >= 0, faces + self.before, -1)[:, :width]
-        return Faces(self, node, np.array(_face_types(self.mesh, faces), dtype=str))
+        return Faces(self, node, self.mesh.element_types[self.mesh.faces_of_surfaces[name.upper()][0]])
 
 
 class Faces(NamedTuple):
-    """Faces of a body: nodes in the model, -1 in unused places, and the type of the element of each."""
+    """Faces of a body: their nodes in the model, -1 in unused places, and the types of their elements."""
 
     body: MeshBody
     node: NDArray[np.intp]
     type: NDArray[np.str_]
 
 
-# Types of elements that have faces.
-_FACED = re.compile("C3D|CPS|CPE|CAX|M3D|R3D|S[3468]")
+def dimensions_of(name: str) -> int:
+    """Dimensions of the faces of elements of this type: 2 for edges in the plane."""
+    kind = element_type(name)
+    return 2 if kind is not None and kind.family == "plane" else 3
 
 
-def _face_types(mesh: Mesh, faces: NDArray[np.intc]) -> list[str]:
-    """Types of the elements that have all nodes of a face."""
-    used = faces >= 0
-    first = np.append(0, np.cumsum(used.sum(axis=1)))
-    of_faces = csr_matrix((np.ones(first[-1]), faces[used], first), shape=(len(faces), mesh.node.size))
-    connection = (np.ones(mesh.connection.size), mesh.connection, mesh.first)
-    shared = (of_faces @ csr_matrix(connection, shape=(mesh.element.size, mesh.node.size)).T).tocoo()
-    types: dict[int, str] = {}
-    for face, element, nodes in zip(shared.row.tolist(), shared.col.tolist(), shared.data):
-        if nodes == used[face].sum() and _FACED.match(mesh.element_type(element)):
-            types.setdefault(face, mesh.element_type(element))
-    return [types[face] for face in range(len(faces))]
-
-
-def is_plane(element_type: str) -> bool:
-    """Whether faces of elements of this type are edges in the plane."""
-    return element_type.startswith(("CPS", "CPE", "CAX"))
+def is_ring(name: str) -> bool:
+    """Whether elements of this type are those of a body of revolution."""
+    return name.startswith("CAX")
 
 
 class MeshModel:
@@ -98,33 +79,30 @@ class MeshModel:
 
     Attributes
     ----------
-    bodies, elastic : sequence of MeshBody
-        All, and those that are not rigid.
+    bodies : list of MeshBody
     position : ndarray, shape (nodes, 3)
     number, owner : ndarray of int, shape (nodes,)
-        Number in the file, and the body.
+        Number in the file, and index of the body.
     row : ndarray of int, shape (nodes, 6)
         Row of each direction, -1 where the stiffness has none.
     load, displacement, held : ndarray, shape (rows,)
         Forces, displacements of supports, and whether there is one.
-    row_body, row_node, row_direction : ndarray of int, shape (rows,)
-        Body of each row, and its name in the file.
+    row_owner, row_node, row_direction : ndarray of int, shape (rows,)
+        Index of the body, and the name in the file.
     """
 
     def __init__(self, bodies: Sequence[MeshBody]) -> None:
-        self.bodies = bodies
-        self.elastic = [body for body in bodies if body.stiffness is not None]
-        sizes = [body.mesh.node.size for body in bodies]
+        self.bodies = list(bodies)
         matrices = [(k, body.stiffness) for k, body in enumerate(bodies) if body.stiffness is not None]
         self.position = np.concatenate([body.mesh.position for body in bodies])
         self.number = np.concatenate([body.mesh.node for body in bodies])
-        self.owner = np.repeat(np.arange(len(bodies)), sizes)
-        self.row_body = np.repeat([k for k, _ in matrices], [matrix.shape[0] for _, matrix in matrices])
+        self.owner = np.repeat(np.arange(len(bodies)), [body.mesh.node.size for body in bodies])
+        self.row_owner = np.repeat([k for k, _ in matrices], [matrix.shape[0] for _, matrix in matrices])
         self.row_node = np.concatenate([matrix.node for _, matrix in matrices])
         self.row_direction = np.concatenate([matrix.direction for _, matrix in matrices])
         self.row = np.full((self.number.size, len(AXES)), -1)
-        self.load, self.displacement = np.zeros(self.row_body.size), np.zeros(self.row_body.size)
-        self.held = np.zeros(self.row_body.size, dtype=bool)
+        self.load, self.displacement = np.zeros((2, self.row_owner.size))
+        self.held = np.zeros(self.row_owner.size, dtype=bool)
 
     def node_name(self, node: int) -> str:
         """A node as options name it."""
@@ -134,7 +112,7 @@ class MeshModel:
         """The node and the direction of a row."""
         direction = int(self.row_direction[row])
         axis = AXES[direction - 1] if 1 <= direction <= len(AXES) else str(direction)
-        return f"node {self.bodies[self.row_body[row]].name}.{self.row_node[row]} along {axis}"
+        return f"node {self.bodies[self.row_owner[row]].name}.{self.row_node[row]} along {axis}"
 
     def find_faces(self, word: str, refuse: Refuse) -> Faces:
         """The faces of body.SURFACE, or of SURFACE where only one body has it."""
@@ -147,13 +125,11 @@ class MeshModel:
             raise refuse(f'"{word}" is empty')
         return nodes
 
-    def _find(
-        self, word: str, refuse: Refuse, what: str, look: Callable[[MeshBody, str], Optional[_Found]]
-    ) -> _Found:
+    def _find(self, word: str, refuse: Refuse, what: str, look: Callable[[MeshBody, str], _Found | None]) -> _Found:
         head, point, tail = word.partition(".")
         named = [body for body in self.bodies if point and body.name.upper() == head.upper()]
-        candidates, name = (named, tail) if named else (self.bodies, word)
-        found = [(body.name, thing) for body in candidates for thing in [look(body, name)] if thing is not None]
+        bodies, name = (named, tail) if named else (self.bodies, word)
+        found = [(body.name, thing) for body in bodies for thing in [look(body, name)] if thing is not None]
         if len(found) == 1:
             return found[0][1]
         if found:
@@ -163,7 +139,7 @@ class MeshModel:
         lacks = f"body {named[0].name} has no" if named else "there is no"
         if what != "surface" and whole(name) is not None:
             raise refuse(f"{lacks} node {name}")
-        raise refuse(f'{lacks} {what} "{name}"{_names(candidates, what)}')
+        raise refuse(f'{lacks} {what} "{name}"{_names(bodies, what)}')
 
 
 def _names(bodies: Sequence[MeshBody], what: str) -> str:

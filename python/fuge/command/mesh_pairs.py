@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from fuge.command.mesh_model import Faces, MeshModel, is_plane
+from fuge.command.mesh_model import Faces, MeshModel, dimensions_of, is_ring
 from fuge.command.options import Options, Setting
 from fuge.formats.text import Reason, value
 from fuge.pairs import Surface
@@ -24,20 +24,14 @@ _OF_PAIRS = {*_SWITCHES, *_NUMBERS, "normals"}
 
 
 class MeshPair(NamedTuple):
-    """Two surfaces, in the nodes and rows of all bodies; `options` are those of :meth:`ElasticBodies.add_pair`."""
+    """Two surfaces, with nodes and rows of the model; `options` are those of :meth:`ContactPairs.find`."""
 
     source: Setting
     faces: tuple[Faces, Faces]
     surfaces: tuple[Surface, Surface]
     options: dict[str, Any]
+    # Added to the gaps.
     clearance: float
-
-    types: set[str]
-
-    @property
-    def revolution(self) -> bool:
-        """Whether forces are those of whole rings."""
-        return any(name.startswith("CAX") for name in self.types)
 
 
 def read_pairs(given: Options, model: MeshModel) -> list[MeshPair]:
@@ -84,34 +78,33 @@ def _option(setting: Setting) -> dict[str, Any]:
 
 
 def _pair(setting: Setting, options: dict[str, Any], model: MeshModel) -> MeshPair:
-    first, _, second = setting.value.partition(":")
-    if not first or not second:
+    words = setting.value.split(":", 1)
+    if len(words) < 2 or "" in words:
         raise setting.refuse("two surfaces are needed, like shaft.OUTER:hub.BORE")
-    contact, opposite = (model.find_faces(word, setting.refuse) for word in (first, second))
+    contact, opposite = (model.find_faces(word, setting.refuse) for word in words)
     if contact.body.stiffness is None and opposite.body.stiffness is None:
         raise setting.refuse("both bodies are rigid: --stiffness is needed")
-    for name, faces in ((first, contact), (second, opposite)):
+    for word, faces in zip(words, (contact, opposite)):
         if len(faces.node) == 0:
-            raise setting.refuse(f"surface {name} has no faces")
+            raise setting.refuse(f"surface {word} has no faces")
     types = {str(name) for faces in (contact, opposite) for name in faces.type}
-    plane = {is_plane(name) for name in types}
-    if len(plane) > 1:
+    sizes = {dimensions_of(name) for name in types}
+    if len(sizes) > 1:
         raise setting.refuse("one surface is of elements of a plane, the other one of elements in space")
-    dimensions = 2 if plane == {True} else 3
+    dimensions = sizes.pop()
     normal = options.get("normal")
     if normal is not None:
         if len(normal) != dimensions:
             raise setting.refuse(f"--normals needs one number for each axis, {dimensions} in all")
         options["normal"] = np.broadcast_to(normal, (model.number.size, dimensions))
-    surfaces = _surface(model, contact, dimensions, setting), _surface(model, opposite, dimensions, setting)
+    options["revolution"] = any(is_ring(name) for name in types)
     clearance = options.pop("clearance", 0.0)
-    pair = MeshPair(setting, (contact, opposite), surfaces, options, 0.0 if options.get("tied") else clearance, types)
-    options["revolution"] = pair.revolution
-    return pair
+    surfaces = _surface(model, contact, dimensions, setting), _surface(model, opposite, dimensions, setting)
+    # Tied surfaces are glued where they are.
+    return MeshPair(setting, (contact, opposite), surfaces, options, 0.0 if "tied" in options else clearance)
 
 
 def _surface(model: MeshModel, faces: Faces, dimensions: int, setting: Setting) -> Surface:
-    """A surface with all nodes of the model: those of its body tell on which side of the faces it lies."""
     node = np.ascontiguousarray(model.position[:, :dimensions])
     if faces.body.stiffness is None:
         return Surface(node, faces.node)

@@ -36,10 +36,10 @@ class Points(NamedTuple):
     normal: Array
     area: Array
     gap: Array
-    play: Optional[Array] = None
-    excluded: Optional[NDArray[np.bool_]] = None
+    play: Optional[Array]
     # Pair and node of each node without an opposite.
-    unpaired: NDArray[np.intc] = np.empty((0, 2), dtype=np.intc)
+    unpaired: NDArray[np.intc]
+    excluded: Optional[NDArray[np.bool_]] = None
 
 
 def check_field(given: Options, model: MeshModel) -> None:
@@ -117,7 +117,7 @@ def _action(model: MeshModel, pairs: Sequence[MeshPair], points: Points) -> Arra
 
 def _pair_comments(model: MeshModel, k: int, pair: MeshPair, force: Array, points: Points) -> Iterator[str]:
     """What a pair is, the force on its contact body, and the nodes that have no opposite."""
-    if pair.revolution:
+    if pair.options["revolution"]:
         # Radial forces of a ring balance each other.
         force[0] = 0.0
     values = ",".join(number_text(value, 16, 24) for value in force)
@@ -150,6 +150,6 @@ def _fields(
 
 def _displacements(model: MeshModel, displacement: Array) -> Table:
     """A line for each degree of freedom."""
-    bodies = [model.bodies[k].name for k in model.row_body]
+    bodies = [model.bodies[k].name for k in model.row_owner]
     columns = [Column("body", bodies), Column("node", model.row_node), Column("direction", model.row_direction)]
     return Table([*columns, Column("displacement", displacement)])
