@@ -2,19 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
-
-
-class _Rule(NamedTuple):
-    """Shape functions of a face and their derivatives at the points of a Gauss rule, and the weights of these."""
-
-    value: NDArray[np.float64]
-    slope: NDArray[np.float64]
-    weight: NDArray[np.float64]
-
 
 _SIDES = [(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0)]
 _CORNERS = [(0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5)]
@@ -47,38 +36,38 @@ def pressure_forces(position: NDArray[np.float64], revolution: bool = False) -> 
     ndarray, shape (faces, nodes, dimensions)
     """
     nodes, dimensions = position.shape[1:]
-    value, slope, weight = _rule(dimensions, nodes)
-    tangent = np.einsum("gnk,fnd->kfgd", slope, position)
+    point, weight = _gauss(dimensions, nodes)
+    places, powers = (np.array(found) for found in _FACES[dimensions, nodes])
+    shapes = np.linalg.inv(_monomials(places, powers))
+    value = _monomials(point, powers) @ shapes
+    slope = [_monomials(point, powers, along) @ shapes for along in range(dimensions - 1)]
+    tangent = [np.einsum("gn,fnd->fgd", along, position) for along in slope]
     if dimensions == 2:
-        area = np.stack([tangent[0, ..., 1], -tangent[0, ..., 0]], axis=-1)
+        area = np.stack([tangent[0][..., 1], -tangent[0][..., 0]], axis=-1)
     else:
-        area = np.cross(tangent[0], tangent[1])
+        area = np.cross(*tangent)
     if revolution:
         area = area * (2.0 * np.pi * (position[..., 0] @ value.T)[..., None])
     return -np.asarray(np.einsum("g,gn,fgd->fnd", weight, value, area))
 
 
-def _rule(dimensions: int, nodes: int) -> _Rule:
+def _gauss(dimensions: int, nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Three points along each coordinate; a triangle is a square with one side drawn together to a corner."""
     root, share = np.polynomial.legendre.leggauss(3)
     if dimensions == 2:
-        point, weight = np.stack([root, np.zeros(3)], axis=1), share
-    else:
-        point = np.stack([np.repeat(root, 3), np.tile(root, 3)], axis=1)
-        weight = np.outer(share, share).reshape(-1)
-        if nodes % 3 == 0:
-            u, v = 0.5 * (1.0 + point.T)
-            point, weight = np.stack([u * (1.0 - v), v], axis=1), 0.25 * weight * (1.0 - v)
-    places, powers = (np.array(found) for found in _FACES[dimensions, nodes])
-    shapes = np.linalg.inv(_monomials(places, powers))
-    slope = [_monomials(point, powers, along) @ shapes for along in range(dimensions - 1)]
-    return _Rule(_monomials(point, powers) @ shapes, np.stack(slope, axis=-1), weight)
+        return np.stack([root, np.zeros(3)], axis=1), share
+    u, v = np.repeat(root, 3), np.tile(root, 3)
+    weight = np.outer(share, share).reshape(-1)
+    if nodes % 3 == 0:
+        v = 0.5 * (1.0 + v)
+        u, weight = 0.5 * (1.0 + u) * (1.0 - v), 0.25 * weight * (1.0 - v)
+    return np.stack([u, v], axis=1), weight
 
 
 def _monomials(
     point: NDArray[np.float64], powers: NDArray[np.int64], along: int | None = None
 ) -> NDArray[np.float64]:
-    """Products of powers of the coordinates at points, shape (points, powers), or their derivatives along one."""
+    """Products of powers of the coordinates of points, shape (points, powers), or their derivatives along one."""
     factors, lowered = np.ones(len(powers)), powers.copy()
     if along is not None:
         factors = powers[:, along].astype(float)

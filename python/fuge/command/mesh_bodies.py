@@ -15,7 +15,7 @@ from fuge.command.options import Options, Setting
 from fuge.command.run import Log
 from fuge.errors import Status
 from fuge.files import read_stiffness
-from fuge.formats.text import quoted_path, refusal
+from fuge.formats.text import quoted_path
 from fuge.mesh import read_mesh
 
 _Part = dict[str, Setting]
@@ -107,7 +107,4 @@ def _name_rows(model: MeshModel, k: int, part: _Part) -> None:
         if not number.any():
             reason = "has rows without names: give the node and the direction of each by --rows"
         raise CommandError(f"{quoted_path(path)} {reason}", Status.ERR_FILE)
-    names = model.bodies[k].before + place[known], axis[known]
-    model.row[names] = rows[known]
-    for row in rows[known][model.row[names] != rows[known]][:1]:
-        raise refusal(path, f"{model.row_name(row)} is the name of two rows")
+    model.row[model.bodies[k].before + place[known], axis[known]] = rows[known]

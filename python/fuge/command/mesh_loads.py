@@ -29,35 +29,24 @@ _HEADINGS = {
 
 
 class _Kind(NamedTuple):
-    """What supports and loads differ in."""
+    """What supports and loads differ in: keyword, columns of a line at least and at most in input files, and words."""
 
     keyword: str
-    # Columns of a line, at least.
     least: int
+    most: int
     example: str
     line: str
     needed: str
-    # Keywords of input files that are another option's.
-    skipped: frozenset[str]
 
 
-_CONTACT = ("CONTACTPAIR", "SURFACEINTERACTION", "SURFACEBEHAVIOR")
-_SUPPORT = _Kind(
-    "BOUNDARY",
-    2,
-    "hub.BOTTOM:xyz or hub.17:z=0.1",
-    "17,z: a support",
-    "nodes, an axis and perhaps a displacement are needed, like 17,z,0.1",
-    frozenset((*_CONTACT, "CLOAD", "DLOAD", "DSLOAD")),
-)
-_LOAD = _Kind(
-    "CLOAD",
-    3,
-    "hub.TOP:z=-100",
-    "17,z,-100: a load",
-    "nodes, an axis and a force are needed, like 17,z,-100",
-    frozenset((*_CONTACT, "BOUNDARY")),
-)
+_SUPPORT = _Kind("BOUNDARY", 2, 4, "hub.BOTTOM:xyz or hub.17:z=0.1", "17,z: a support",
+                 "nodes, an axis and perhaps a displacement are needed, like 17,z,0.1")  # fmt: skip
+_LOAD = _Kind("CLOAD", 3, 3, "hub.TOP:z=-100", "17,z,-100: a load",
+              "nodes, an axis and a force are needed, like 17,z,-100")  # fmt: skip
+
+# Keywords of input files that other options stand for; of loads beside supports.
+_CONTACT = {"CONTACTPAIR", "SURFACEINTERACTION", "SURFACEBEHAVIOR"}
+_LOADS = {"CLOAD", "DLOAD", "DSLOAD"}
 
 
 class _Condition(NamedTuple):
@@ -213,32 +202,35 @@ def _deck(given: Options, path: str, kind: _Kind) -> Iterator[_Condition]:
     """The lines under *BOUNDARY or *CLOAD of an input file of Abaqus or CalculiX, of one load case."""
     paths: list[str] = []
     step, steps = 0, set[int]()
+    skipped = _CONTACT | ({"BOUNDARY"} if kind is _LOAD else _LOADS)
     for block in read_blocks(path, paths):
         step += block.keyword == "STEP"
-        if block.keyword in kind.skipped:
+        if block.keyword in skipped:
             continue
         parameters = parameters_of(block)
-        if block.keyword != kind.keyword or not block.lines:
-            continue
-        if steps - {0, step} or (steps - {step} and parameters.get("OP") == "NEW"):
-            raise block.refuse(f"*{block.keyword} of another load case follows: leave those of one")
-        steps.add(step)
-        for k, line in enumerate(block.lines):
-            yield _data(partial(block.refuse, index=k), split_items(line)[0], kind)
+        if block.keyword == kind.keyword:
+            if steps - {0, step} or (steps - {step} and parameters.get("OP") == "NEW"):
+                raise block.refuse(f"*{block.keyword} of another load case follows: leave those of one")
+            steps.add(step)
+            for k, line in enumerate(block.lines):
+                yield _data(partial(block.refuse, index=k), split_items(line)[0], kind)
     for included in paths[1:]:
         check_input(given, included, "the same file as of an *INCLUDE")
 
 
 def _data(refuse: Refuse, items: list[str], kind: _Kind) -> _Condition:
     """Node, direction and force, or node, first and perhaps last direction and displacement."""
-    if not kind.least <= len(items) <= (4 if kind is _SUPPORT else 3):
+    if not kind.least <= len(items) <= kind.most:
         raise refuse(kind.needed)
-    first, number = items[1], items[2] if kind is _LOAD else "".join(items[3:]) or None
-    last = first if kind is _LOAD else "".join(items[2:3]) or first
+    node, first, last, number = items[0], items[1], items[1], "".join(items[3:]) or None
+    if kind is _LOAD:
+        number = items[2]
+    elif items[2:] and items[2]:
+        last = items[2]
     for word in (first, last):
         if word not in _DIRECTIONS:
             raise refuse(f'"{word}" is no axis: 1 to 6')
     axes = range(_DIRECTIONS[first], _DIRECTIONS[last] + 1)
     if not axes:
         raise refuse("the last direction is less than the first one")
-    return _condition(refuse, items[0], axes, number)
+    return _condition(refuse, node, axes, number)

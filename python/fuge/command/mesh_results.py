@@ -1,9 +1,9 @@
-"""What is found of bodies with meshes in contact: the table of contact points, and fields of displacements."""
+"""What is found of bodies with meshes in contact: the table of contact points, fields of displacements, a picture."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple, Optional
 
 import numpy as np
@@ -27,7 +27,10 @@ _NODES_ON_A_LINE = 20
 
 
 class Points(NamedTuple):
-    """Contact points of all pairs, as :class:`ContactPairs` has them; gaps with clearances, nodes of the model."""
+    """Contact points of all pairs, as :class:`ContactPairs` has them, with nodes and rows of the model.
+
+    Gaps have the clearances; `unpaired` has pair and node of each node without an opposite.
+    """
 
     pair: NDArray[np.intc]
     node: NDArray[np.intc]
@@ -37,7 +40,6 @@ class Points(NamedTuple):
     area: Array
     gap: Array
     play: Optional[Array]
-    # Pair and node of each node without an opposite.
     unpaired: NDArray[np.intc]
     excluded: Optional[NDArray[np.bool_]] = None
 
@@ -54,28 +56,21 @@ def check_field(given: Options, model: MeshModel) -> None:
 
 
 def outcome(
-    model: MeshModel,
-    pairs: Sequence[MeshPair],
-    points: Points,
-    contact: Contact,
-    displacement: Array,
-    report: Report,
+    model: MeshModel, pairs: Sequence[MeshPair], points: Points, contact: Contact, displacement: Array, report: Report
 ) -> Outcome:
-    """The table of the contact points, and the fields; `displacement` is that of all rows."""
-    force = contact.force[:, None] * _action(model, pairs, points)
+    """The table of the contact points, the fields and the picture; `displacement` is that of all rows."""
+    action = contact.force[:, None] * _actions(model, pairs, points)
     comments = report.comments(contact.info.contacts)
     for k, pair in enumerate(pairs):
-        comments += _pair_comments(model, k, pair, force[points.pair == k].sum(axis=0), points)
-    direction = np.zeros((points.gap.size, 3))
-    direction[:, : points.direction.shape[1]] = points.direction
-    numbers = (*model.position[points.node].T, *direction.T, points.area, contact.force)
-    numbers += (contact.force / points.area, contact.gap)
-    names = "x y z nx ny nz area force pressure gap".split()
+        comments += _pair_comments(model, k, pair, action[points.pair == k].sum(axis=0), points)
+    place, pressure = model.position[points.node], contact.force / points.area
+    direction = np.pad(points.direction, ((0, 0), (0, 3 - points.direction.shape[1])))
+    numbers = (*place.T, *direction.T, points.area, contact.force, pressure, contact.gap)
     columns = [
         Column("pair", points.pair + 1),
         Column("body", [model.bodies[k].name for k in model.owner[points.node]]),
         Column("node", model.number[points.node]),
-        *(Column(name, values) for name, values in zip(names, numbers)),
+        *map(Column, "x y z nx ny nz area force pressure gap".split(), numbers),
         Column("state", state_words(contact.force, contact.state, points.play, points.excluded)),
     ]
 
@@ -83,69 +78,64 @@ def outcome(
         if not _is_mesh_file(path):
             write_lines(path, _displacements(model, displacement).lines())
             return
-        fields = _fields(model, pairs, points, contact, displacement, force)
-        join_meshes([body.mesh for body in model.bodies]).write(path, fields)
+        tied = np.array(["tied" in pair.options for pair in pairs])[points.pair]
+        values = {
+            "displacement": np.where(model.row[:, :3] >= 0, displacement[model.row[:, :3]], 0.0),
+            "pressure": _at_nodes(model, points, np.where(tied, 0.0, pressure)),
+            "contact_force": _at_nodes(model, points, action),
+            "body": model.owner + 1.0,
+        }
+        join_meshes([body.mesh for body in model.bodies]).write(path, values)
 
-    return Outcome(Table(columns, comments), write_field=write_field)
+    return Outcome(Table(columns, comments), write_field, _picture(place, pressure, points.direction.shape[1]))
 
 
-def _action(model: MeshModel, pairs: Sequence[MeshPair], points: Points) -> Array:
+def _actions(model: MeshModel, pairs: Sequence[MeshPair], points: Points) -> Array:
     """Resultants on the contact body of a force of 1 at each point, shape (n, 3).
 
     On bent surfaces the force is spread along several normals. Along an axis that the stiffness lacks the resultant is
     that of the direction of the gap.
     """
     result = np.zeros((points.gap.size, 3))
+    dimensions = points.direction.shape[1]
     for k, pair in enumerate(pairs):
         here = np.flatnonzero(points.pair == k)
-        dimensions = points.direction.shape[1]
         rigid = pair.surfaces[0].dof is None
-        nodes = np.unique(pair.faces[int(rigid)].node)
-        rows = model.row[nodes[nodes >= 0], :dimensions]
+        node = pair.faces[int(rigid)].node
         # The last element is that of no degree of freedom, -1.
         axis = np.full(model.load.size + 1, -1)
-        axis[rows] = np.arange(dimensions)
+        axis[model.row[node[node >= 0], :dimensions]] = np.arange(dimensions)
         axis[-1] = -1
-        along, normal = axis[points.dof[here]], points.normal[here]
+        along = axis[points.dof[here]]
         for d in range(dimensions):
-            result[here, d] = (-1.0 if rigid else 1.0) * np.where(along == d, normal, 0.0).sum(axis=1)
-            if not rigid:
-                lacking = here[model.row[points.node[here], d] < 0]
-                result[lacking, d] = -points.direction[lacking, d]
+            factors = np.where(along == d, points.normal[here], 0.0).sum(axis=1)
+            lacking = (model.row[points.node[here], d] < 0) & (not rigid)
+            result[here, d] = np.where(lacking, -points.direction[here, d], -factors if rigid else factors)
     return result
 
 
 def _pair_comments(model: MeshModel, k: int, pair: MeshPair, force: Array, points: Points) -> Iterator[str]:
     """What a pair is, the force on its contact body, and the nodes that have no opposite."""
-    if pair.options["revolution"]:
-        # Radial forces of a ring balance each other.
-        force[0] = 0.0
-    values = ",".join(number_text(value, 16, 24) for value in force)
+    resultant = [0.0, *force[1:]] if pair.options["revolution"] else force
+    values = ",".join(number_text(value, 16, 24) for value in resultant)
     yield f"pair {k + 1}: {pair.source.value}, force on {pair.faces[0].body.name}: {values}"
+    if pair.options["revolution"]:
+        yield f"pair {k + 1}, sum of the radial forces, which balance each other: {number_text(force[0], 16, 24)}"
     lonely = sorted(model.number[points.unpaired[points.unpaired[:, 0] == k, 1]].tolist())
     for begin in range(0, len(lonely), _NODES_ON_A_LINE):
         nodes = " ".join(map(str, lonely[begin : begin + _NODES_ON_A_LINE]))
         yield f"pair {k + 1}, nodes without an opposite: {nodes}"
 
 
-# ---- fields
-
-
 def _is_mesh_file(path: str) -> bool:
     return path.upper().endswith(".VTU")
 
 
-def _fields(
-    model: MeshModel, pairs: Sequence[MeshPair], points: Points, contact: Contact, displacement: Array, force: Array
-) -> dict[str, Any]:
-    """Displacements, pressures and forces of the contact points, and the number of the body, at all nodes."""
-    row, nodes = model.row[:, :3], model.number.size
-    pressure, forces = np.zeros(nodes), np.zeros((nodes, 3))
-    np.add.at(forces, points.node, force)
-    loose = ~np.array([bool(pair.options.get("tied")) for pair in pairs])[points.pair]
-    np.add.at(pressure, points.node[loose], (contact.force / points.area)[loose])
-    moved = np.where(row >= 0, displacement[row], 0.0)
-    return {"displacement": moved, "pressure": pressure, "contact_force": forces, "body": model.owner + 1.0}
+def _at_nodes(model: MeshModel, points: Points, values: Array) -> Array:
+    """Sums of the values of points at all nodes."""
+    total = np.zeros((model.number.size, *values.shape[1:]))
+    np.add.at(total, points.node, values)
+    return total
 
 
 def _displacements(model: MeshModel, displacement: Array) -> Table:
@@ -153,3 +143,20 @@ def _displacements(model: MeshModel, displacement: Array) -> Table:
     bodies = [model.bodies[k].name for k in model.row_owner]
     columns = [Column("body", bodies), Column("node", model.row_node), Column("direction", model.row_direction)]
     return Table([*columns, Column("displacement", displacement)])
+
+
+def _picture(place: Array, pressure: Array, dimensions: int) -> Callable[[Any], None]:
+    """Pressures over the longest extent of the points, in space as colours over the two longest ones."""
+    first, second = np.argsort(-np.ptp(place, axis=0), kind="stable")[:2]
+
+    def draw(axes: Any) -> None:
+        axes.set_xlabel("xyz"[first])
+        if dimensions == 2:
+            axes.plot(place[:, first], pressure, "o")
+            axes.set_ylabel("pressure")
+            return
+        drawn = axes.scatter(place[:, first], place[:, second], c=pressure)
+        axes.set(ylabel="xyz"[second], aspect="equal")
+        axes.figure.colorbar(drawn, label="pressure")
+
+    return draw
