@@ -4,6 +4,7 @@ import csv
 import itertools
 import re
 import shutil
+import unittest
 from pathlib import Path
 
 import numpy as np
@@ -246,6 +247,8 @@ WRONG = [
     ("--mesh back.inp --pair upper.FACE:PLATE", "face S3 of element 1 looks into the element", INPUT),
     (f"{PAIR} --support lower.BOTOM:y", 'no set of nodes "BOTOM"; there are lower.ALL, lower.BOTTOM', USAGE),
     (f"{PAIR} --load upper.5:y=1", "--load upper.5:y=1: body upper has no node 5", USAGE),
+    (f"{PAIR} --load 5:y=1", "there is no node 5", USAGE),
+    (f"{PAIR} --support LEFT:x", 'both have "LEFT": write upper.LEFT or lower.LEFT', USAGE),
     (f"{PAIR} --support lower.BOTTOM:z", "no node there has a row along z", USAGE),
     (f"{PAIR} --support lower.BOTTOM:q", '"q" is no axis', USAGE),
     (f"{PAIR} --support lower.BOTTOM", "nodes and an axis are needed", USAGE),
@@ -331,7 +334,7 @@ class Refusals(MeshesCase):
                 self.assert_refused(f"{TWO}{PAIR}{HELD} {option} upper=given.txt".split(), message, INPUT)
 
 
-class FaceForces(MeshesCase):
+class FaceForces(unittest.TestCase):
     def test_closed_forms(self):
         square = np.array([(0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1), (1, 0, 1), (2, 1, 1), (1, 2, 1), (0, 1, 1.0)])
         triangle = 0.5 * np.array([(0, 0, 2), (2, 0, 2), (0, 2, 2), (1, 0, 2), (1, 1, 2), (0, 1, 2.0)])
@@ -349,3 +352,13 @@ class FaceForces(MeshesCase):
             force = pressure_forces(nodes[None], revolution)[0]
             np.testing.assert_allclose(force[:, -1], expected, atol=1e-14)
             np.testing.assert_allclose(force[:, :-1], 0.0, atol=1e-14)
+
+    def test_closed_surface(self):
+        """A pressure around a cube whose sides are bent has no resultant."""
+        corner = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1.0)])
+        x = corner[np.array([(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)])]
+        y = np.roll(x, -1, axis=1)
+        bent = np.stack([x[..., 2] + y[..., 2], x[..., 0] * y[..., 0], x[..., 1] + y[..., 1]], axis=-1)
+        force = pressure_forces(np.concatenate([x, 0.5 * (x + y) + 0.1 * bent], axis=1))
+        np.testing.assert_allclose(force.sum(axis=(0, 1)), 0.0, atol=1e-14)
+        self.assertGreater(abs(force).max(), 0.1)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Callable, NamedTuple, Optional, TypeVar
 
 import numpy as np
@@ -33,6 +34,10 @@ class MeshBody:
     stiffness: Optional[StiffnessFile]
     before: int
 
+    @cached_property
+    def _places(self) -> dict[int | None, int]:
+        return {number: node for node, number in enumerate(self.mesh.node.tolist(), self.before)}
+
     def nodes(self, name: str) -> NDArray[np.intp] | None:
         """The nodes of a set, of a surface, or the one with this number; None: no such."""
         if name.upper() in self.mesh.node_sets:
@@ -41,8 +46,7 @@ class MeshBody:
             members = np.unique(self.mesh.faces(name))
             return self.before + members[members >= 0].astype(np.intp)
         number = whole(name)
-        found = np.empty(0, dtype=np.intp) if number is None else np.flatnonzero(self.mesh.node == number)
-        return self.before + found if found.size else None
+        return np.array([self._places[number]]) if number in self._places else None
 
     def faces(self, name: str) -> Faces | None:
         """The faces of a surface; None: no such."""

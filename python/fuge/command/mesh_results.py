@@ -87,7 +87,8 @@ def outcome(
         }
         join_meshes([body.mesh for body in model.bodies]).write(path, values)
 
-    return Outcome(Table(columns, comments), write_field, _picture(place, pressure, points.direction.shape[1]))
+    draw = _picture(place, pressure, points.direction.shape[1])
+    return Outcome(Table(columns, comments), write_field=write_field, draw=draw)
 
 
 def _actions(model: MeshModel, pairs: Sequence[MeshPair], points: Points) -> Array:
