@@ -70,7 +70,8 @@ def read_dmig(file: TextFile, name: str) -> Entries:
 
 def _head(file: TextFile, k: int) -> list[str]:
     """The first four data fields of a DMIG."""
-    fields = [words[0].strip(BLANKS) for words in _fields(file, [k], *_form(file.lines[k][:9]))]
+    line = file.lines[k]
+    fields = [words[0].strip(BLANKS) for words in _fields(file, [k], *_form(line[:9]), line.count(","))]
     if not fields[0]:
         raise Reason("the name of the matrix is missing: DMIG and the name are needed")
     return fields[:4]
@@ -92,17 +93,19 @@ def _form(begin: str) -> tuple[bool, int]:
     return bool(comma), 4 if "*" in first[:8] else 8
 
 
-def _fields(file: TextFile, indices: list[int], free: bool, count: int) -> list[list[str]]:
+def _fields(file: TextFile, indices: list[int], free: bool, count: int, commas: int) -> list[list[str]]:
     """The data fields of lines of the same form: for each field the words of all lines, with blanks around them."""
     lines = [file.lines[k] for k in indices]
     if not free:
         width = 64 // count
         return [[line[k : k + width] for line in lines] for k in range(8, 72, width)]
-    parts = [line.split(",", count + 1) for line in lines]
-    for k, part in zip(indices, parts):
-        if len(part) > count + 1 and not _MARKER.match(part.pop()):
-            raise file.refuse(k + 1, f"more than {count} fields")
-    return [[part[k] if k < len(part) else "" for part in parts] for k in range(1, count + 1)]
+    words = ",".join(lines).split(",")
+    if commas > count:
+        for k, line in zip(indices, lines):
+            if not _MARKER.match(line.split(",", count + 1)[-1]):
+                raise file.refuse(k + 1, f"more than {count} fields")
+    blank = [""] * len(lines)
+    return [words[k :: commas + 1] if k <= commas else blank for k in range(1, count + 1)]
 
 
 def _rows(file: TextFile, indices: list[int], first: int) -> Table:
@@ -111,7 +114,8 @@ def _rows(file: TextFile, indices: list[int], first: int) -> Table:
     for block in blocks(indices):
         forms = defaultdict(list)
         for k in block:
-            forms[_form(file.lines[k][:9])].append(k)
+            free, count = _form(file.lines[k][:9])
+            forms[free, count, free and file.lines[k].count(",")].append(k)
         for form, chosen in forms.items():
             fields = _fields(file, chosen, *form)
             tables += [_group(file, chosen, fields[k : k + 4]) for k in range(first, len(fields), 4)]

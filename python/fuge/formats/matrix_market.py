@@ -71,7 +71,7 @@ def read_sparse(path: PathLike) -> CompressedColumns:
 
 
 def compressed_columns(
-    shape: tuple[int, int], row: NDArray[np.int64], column: NDArray[np.int64], number: NDArray[np.float64]
+    shape: tuple[int, int], row: NDArray[Any], column: NDArray[Any], number: NDArray[Any]
 ) -> CompressedColumns:
     """Compressed columns of entries in any order, each position once; rows ascend in each column."""
     from scipy.sparse import coo_matrix
@@ -91,7 +91,6 @@ def _read(file: TextFile, dense: bool) -> CompressedColumns:
     kinds = [Column(_whole, b"+-0123456789") if integers else Column(_real)]
     if coordinate:
         kinds = [label_column("row", 1, rows), label_column("column", 1, columns), *kinds]
-    number: NDArray[Any]
     *places, number = read_columns(file, lines[1:], kinds, _one_entry)
     if coordinate:
         row, column = np.array(places, dtype=np.int64) - 1
@@ -105,8 +104,10 @@ def _read(file: TextFile, dense: bool) -> CompressedColumns:
         row, column = np.concatenate([row, column[off]]), np.concatenate([column, row[off]])
         number = np.concatenate([number, number[off]])
     position, first, place = np.unique(column * rows + row, return_index=True, return_inverse=True)
-    # Entries of one position are added in the order of the file.
-    number = number[first] if len(first) == len(number) else np.bincount(place, number)
+    if len(first) < len(number):
+        # Entries of one position are added in the order of the file.
+        number, first = np.bincount(place, number), np.arange(len(position))
+    number = number[first]
     column, row = np.divmod(position, max(rows, 1))
     for k in np.flatnonzero(~np.isfinite(number)):
         raise refusal(file.path, f"the sum of the entries for ({row[k] + 1}, {column[k] + 1}) is out of range")

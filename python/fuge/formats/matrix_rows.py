@@ -68,7 +68,9 @@ def read_entries(file: TextFile, rows: int) -> Entries:
     first = file.lines[lines[0] - 1]
     count = len(split_columns(first))
     if count not in (3, 5):
-        reason = f"an entry has 3 columns (row, column, value) or 5 (node, direction, node, direction, value), not {count}"
+        reason = (
+            f"an entry has 3 columns (row, column, value) or 5 (node, direction, node, direction, value), not {count}"
+        )
         raise file.refuse(lines[0], _NO_ENTRY.format(quoted(first)) if first[0] == "*" else reason)
     if count == 5:
         table = read_columns(file, lines, [_NODE, _DIRECTION, _NODE, _DIRECTION, Column()], _words, comma=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from typing import Any, Callable, NamedTuple
+from typing import Any, Callable, NamedTuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,13 @@ from fuge.formats.text import LARGEST_LABEL, Reason, TextFile, label, value
 Table = NDArray[np.float64]
 """A row for each column of the text; labels are exact."""
 
+Numbers = Union[Sequence[int], NDArray[np.int64]]
+"""Numbers of lines, from 1."""
+
 BLANKS = " \t\r"
 _LARGEST = float(np.finfo(float).max)
+# Where the letter of an exponent is missing, as in 3.+5.
+_NO_LETTER = re.compile(r"(?<=[\d.])(?=[+-])", re.ASCII)
 # `str.split` also parts at control characters, which are no blanks here.
 _TEXT = bytes([*b"\t\n\r", *range(32, 127)])
 
@@ -39,7 +44,7 @@ def label_column(name: str, least: int = 1, most: int = LARGEST_LABEL) -> Column
 
 def read_columns(
     file: TextFile,
-    numbers: Sequence[int],
+    numbers: Numbers,
     columns: Sequence[Column],
     split: Callable[[str, int], list[str]],
     comma: bool = False,
@@ -57,9 +62,7 @@ def read_columns(
     return np.hstack(tables)
 
 
-def read_words(
-    file: TextFile, numbers: Sequence[int], words: Sequence[Sequence[str]], columns: Sequence[Column]
-) -> Table:
+def read_words(file: TextFile, numbers: Numbers, words: Sequence[Sequence[str]], columns: Sequence[Column]) -> Table:
     """As `read_columns`, of words with blanks around them, a sequence for each column; `numbers` are their lines."""
     table = _at_once(words, columns)
     if table is None:
@@ -68,7 +71,7 @@ def read_words(
     return table
 
 
-def blocks(items: Sequence[Any]) -> Iterator[Any]:
+def blocks(items: Any) -> Iterator[Any]:
     """Parts of a long sequence, so that the words of a few lines only are in memory at a time."""
     return (items[begin : begin + 50000] for begin in range(0, len(items), 50000))
 
@@ -100,19 +103,25 @@ def _at_once(words: Sequence[Sequence[str]], columns: Sequence[Column]) -> Table
         text = "\n".join(texts)
         if not text.isascii() or text.encode().translate(None, column.letters + b" \n"):
             return None
-        if "D" in text or "d" in text:
-            texts = text.replace("D", "e").replace("d", "e").split("\n")
-        try:
-            rows.append(np.fromiter(map(float, texts), float, len(texts)))
-        except ValueError:
+        numbers = _floats(text.replace("D", "e").replace("d", "e"))
+        if numbers is None and column.read is value:
+            numbers = _floats(_NO_LETTER.sub("e", text))
+        if numbers is None or not np.all((column.least <= numbers) & (numbers <= column.most)):
             return None
-        if not np.all((column.least <= rows[-1]) & (rows[-1] <= column.most)):
-            return None
+        rows.append(numbers)
     return np.array(rows) if rows else None
 
 
+def _floats(text: str) -> NDArray[np.float64] | None:
+    """The numbers on the lines of a text; None if there is a blank one, or none at all."""
+    try:
+        return np.array(list(map(float, text.split("\n"))))
+    except ValueError:
+        return None
+
+
 def _one_by_one(
-    file: TextFile, numbers: Sequence[int], items: list[Any], columns: Sequence[Column], split: Callable[..., list[str]]
+    file: TextFile, numbers: Numbers, items: list[Any], columns: Sequence[Column], split: Callable[..., list[str]]
 ) -> Table:
     """The numbers in any spelling; refuses the first line that cannot be read."""
     table = np.empty((len(columns), len(items)))

@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from fuge.formats.matrix_rows import Entries
-from fuge.formats.number_columns import BLANKS, Column, blank_words, blocks, read_words
-from fuge.formats.text import Reason, TextFile, label, quoted, refusal, whole
+from fuge.formats.number_columns import BLANKS, Column, blocks, read_words
+from fuge.formats.text import Reason, TextFile, quoted, refusal, whole
 
 
 class Op4Header(NamedTuple):
@@ -26,20 +26,18 @@ class Op4Header(NamedTuple):
     rows: int
     type: int
     name: str
-    # Of a value, in characters.
+    # Of a value: characters, and words in memory.
     width: int
+    words: int
 
 
-class _Run(NamedTuple):
-    """A dense column or a string: its column, its first row, and how many words or values it should have."""
+# A dense column or a string: its column, its first row, and how many words or values it should have.
+_Run = tuple[int, int, int]
+# Lines of values: number, column and row of the first value, and how many values, one after the other.
+_ValueLines = list[int]
 
-    column: int
-    row: int
-    announced: int
-
-
-# Number, column and row of the first value, and how many values are on a line.
-_ValueLine = tuple[int, int, int, int]
+# The header of a column, three numbers, or of a string, one or two.
+_RUN = re.compile(r"[ \t]*(\d{1,10})(?:[ \t]+(\d{1,10}))?(?:[ \t]+(\d{1,10}))?[ \t]*", re.ASCII)
 
 
 def op4_header(line: str) -> Op4Header | None:
@@ -50,7 +48,8 @@ def op4_header(line: str) -> Op4Header | None:
         return None
     width = re.search("[EDG](\\d*)", line[40:], re.IGNORECASE | re.ASCII)
     known = width is not None and re.fullmatch("[89]|[1-5]\\d|6[0-4]", width[1])
-    return Op4Header(columns, abs(rows), number_type, name, int(known[0]) if known else 16)
+    words = 2 if number_type in (2, 4) else 1
+    return Op4Header(columns, abs(rows), number_type, name, int(known[0]) if known else 16, words)
 
 
 def read_op4(file: TextFile, name: str, rows: int) -> Entries:
@@ -90,69 +89,70 @@ def _check_form(file: TextFile, number: int, header: Op4Header, rows: int) -> No
         raise file.refuse(number, f"the matrix {quoted(header.name)} {reason}")
 
 
-def _value_lines(file: TextFile, begin: int, header: Op4Header) -> tuple[list[_ValueLine], int]:
+def _value_lines(file: TextFile, begin: int, header: Op4Header) -> tuple[_ValueLines, int]:
     """The lines of values up to the column after the last one, and the index of the line that follows."""
-    lines: list[_ValueLine] = []
-    run, found = _Run(0, 0, 0), 0
+    lines: _ValueLines = []
+    column, row, announced, found = 0, 0, 0, 0
     for k in range(begin, len(file.lines)):
         line = file.lines[k].rstrip(" \r")
         try:
             if "." in line:
-                if run.column > header.columns:
+                if column > header.columns:
                     return lines, k + 1
-                if run.row == 0:
+                if row == 0:
                     raise Reason("values before the header of their column or string")
                 count = -(-len(line) // header.width)
-                lines.append((k + 1, run.column, run.row + found, count))
+                lines += (k + 1, column, row + found, count)
                 found += count
-                if run.row + found > header.rows + 1:
+                if row + found > header.rows + 1:
                     raise Reason(f"row {header.rows + 1} is outside 1 .. {header.rows}")
             elif line.strip(BLANKS):
-                run, found = _next_run(line, run, found, header), 0
+                if announced not in (found, found * header.words):
+                    words = f"{announced} words of {header.words} for each value are announced"
+                    raise Reason(f"column {column} has {found} values above this line, but {words}")
+                (column, row, announced), found = _next_run(line, column, header), 0
         except Reason as reason:
             raise file.refuse(k + 1, reason) from None
-    if run.column > header.columns:
+    if column > header.columns:
         return lines, len(file.lines)
-    where = f"in or before column {min(run.column + 1, header.columns)} of {header.columns}"
+    where = f"in or before column {min(column + 1, header.columns)} of {header.columns}"
     missing = "and without the column after the last one: is it cut off?"
     raise file.refuse(len(file.lines), f"the file ends {where}, {missing}")
 
 
-def _next_run(line: str, run: _Run, found: int, header: Op4Header) -> _Run:
-    """The header of a column, three numbers, or of a string, one or two."""
-    words = 2 if header.type in (2, 4) else 1
-    if run.announced not in (found, found * words):
-        announced = f"{run.announced} words of {words} for each value are announced"
-        raise Reason(f"column {run.column} has {found} values above this line, but {announced}")
-    numbers = [label(word, "number", 0) for word in blank_words(line)]
-    if len(numbers) > 3:
+def _next_run(line: str, column: int, header: Op4Header) -> _Run:
+    """The run whose header is a line, in or after a column."""
+    match = _RUN.fullmatch(line)
+    if match is None:
         raise Reason("values with a decimal point, or the header of a column or of a string are needed here")
-    if len(numbers) < 3:
-        if run.column == 0:
+    first, second, third = match.groups()
+    if third is None:
+        if column == 0:
             raise Reason("a string before the first column")
-        length, row = numbers if len(numbers) == 2 else divmod(numbers[0], 65536)
-        column, announced_words, first_row = run.column, max(length - 1, 0), 1
+        length, row = divmod(int(first), 65536) if second is None else (int(first), int(second))
+        announced = max(length - 1, 0)
     else:
-        column, row, announced_words = numbers
-        if not run.column < column <= header.columns + 1:
+        before, column, row = column, int(first), int(second)
+        if not before < column <= header.columns + 1:
             last = f"columns ascend, up to {header.columns + 1} after the last one"
-            raise Reason(f"column {column} after column {run.column}: {last}")
-        first_row = 0
-    if not first_row <= row <= header.rows:
+            raise Reason(f"column {column} after column {before}: {last}")
+        announced = int(third) if row else 0
+    if not (third is None) <= row <= header.rows:
         raise Reason(f"row {row} is outside 1 .. {header.rows}")
-    return _Run(column, row, announced_words if row else 0)
+    return column, row, announced
 
 
-def _entries(file: TextFile, header: Op4Header, lines: list[_ValueLine]) -> Entries:
+def _entries(file: TextFile, header: Op4Header, lines: _ValueLines) -> Entries:
+    table = np.array(lines, dtype=np.int64).reshape(-1, 4)
     values = [np.empty(0)]
-    for block in blocks(lines):
-        text = "".join([file.lines[k - 1].rstrip(" \r").ljust(n * header.width) for k, _, _, n in block])
+    for number, many in zip(blocks(table[:, 0]), blocks(table[:, 3])):
+        lengths = zip(number.tolist(), (many * header.width).tolist())
+        text = "".join([file.lines[k - 1].rstrip(" \r").ljust(length) for k, length in lengths])
         words = [text[k : k + header.width] for k in range(0, len(text), header.width)]
-        numbers = np.repeat([k for k, _, _, _ in block], [n for _, _, _, n in block])
-        values.append(read_words(file, numbers.tolist(), [words], [Column()])[0])
+        values.append(read_words(file, np.repeat(number, many), [words], [Column()])[0])
     value = np.concatenate(values)
-    line, column, row, count = np.array(lines, dtype=np.int64).reshape(-1, 4).T
-    row = np.repeat(row - 1 - np.cumsum(count) + count, count) + np.arange(len(value))
+    count = table[:, 3]
+    line, column, row = np.repeat(table[:, :3], count, axis=0).T
+    row = row + np.arange(len(value)) - np.repeat(np.cumsum(count) - count, count)
     kept = value != 0.0
-    line, column = np.repeat(line, count), np.repeat(column - 1, count)
-    return Entries(row[kept], column[kept], value[kept], line[kept], rows=header.columns)
+    return Entries(row[kept] - 1, column[kept] - 1, value[kept], line[kept], rows=header.columns)
