@@ -36,7 +36,7 @@ def read_dmig(file: TextFile, name: str) -> Entries:
     wanted, other, whole = name, "", False
     cards = [k for k, line in enumerate(file.lines) if line[:1] not in "*+$" and _CARD.match(line)]
     for k, end in zip(cards, [*cards[1:], len(file.lines)]):
-        if file.lines[k][:8].strip(" ").lower().partition(",")[0].rstrip("* ") != "dmig":
+        if file.lines[k][:8].strip(" ")[:4].lower() != "dmig":
             continue
         try:
             found, node, *fields = _head(file, k)
@@ -55,7 +55,7 @@ def read_dmig(file: TextFile, name: str) -> Entries:
                 if fields[1]:
                     raise Reason(f"{quoted(fields[1])} stands where a column has a blank field")
                 if end < len(file.lines) and not re.match(" *[A-Za-z]", file.lines[end]):
-                    raise Reason(f"line {end + 1} is neither a card nor a continuation of this one")
+                    raise file.refuse(end + 1, "neither a card nor a continuation of the DMIG above")
         except Reason as reason:
             raise file.refuse(k + 1, reason) from None
     if not heads:
@@ -63,17 +63,23 @@ def read_dmig(file: TextFile, name: str) -> Entries:
         raise refusal(file.path, f"the file has {no_matrix if other else 'no entry of a DMIG matrix'}")
     table = np.hstack([_rows(file, heads, 4), _rows(file, body, 0)])
     line, node, component, value, _ = table[:, np.argsort(table[0], kind="stable")]
+    # A column without rows is one of the matrix too.
     column = np.array(keys)[np.searchsorted(np.array(heads), line, side="left") - 1]
     row = (node * DIRECTIONS + component).astype(np.int64)
-    return Entries(row, column, value, line.astype(np.int64), named=True, whole=whole)
+    return Entries(row, column, value, line.astype(np.int64), names=np.array(keys), whole=whole)
 
 
 def _head(file: TextFile, k: int) -> list[str]:
-    """The first four data fields of a DMIG."""
+    """The first four data fields of a DMIG: the name of its matrix, node, direction, and a blank one."""
     line = file.lines[k]
+    keyword = line[:8].partition(",")[0].strip(" ")
+    if keyword.upper() not in ("DMIG", "DMIG*"):
+        raise Reason(f"{quoted(keyword)} is no card: is DMIG meant?")
     fields = [words[0].strip(BLANKS) for words in _fields(file, [k], *_form(line[:9]), line.count(","))]
     if not fields[0]:
         raise Reason("the name of the matrix is missing: DMIG and the name are needed")
+    if not re.fullmatch(r"\S{1,8}", fields[0]):
+        raise Reason(f"{quoted(fields[0])} is no name of a matrix: it has up to eight letters")
     return fields[:4]
 
 
@@ -99,7 +105,7 @@ def _fields(file: TextFile, indices: list[int], free: bool, count: int, commas: 
     if not free:
         width = 64 // count
         return [[line[k : k + width] for line in lines] for k in range(8, 72, width)]
-    words = ",".join(lines).split(",")
+    words = ",".join(lines).replace("\t", " ").split(",")
     if commas > count:
         for k, line in zip(indices, lines):
             if not _MARKER.match(line.split(",", count + 1)[-1]):
@@ -125,9 +131,9 @@ def _rows(file: TextFile, indices: list[int], first: int) -> Table:
 def _group(file: TextFile, indices: list[int], words: list[list[str]]) -> Table:
     if not all(map(str.strip, words[0])):
         # A row may be left blank, but not its node alone.
-        used = [k for k in range(len(indices)) if any(word[k].strip() for word in words)]
+        used = [k for k in range(len(indices)) if any(word[k].strip(" ") for word in words)]
         indices, words = [indices[k] for k in used], [[word[k] for k in used] for word in words]
-    words[1::2] = [[word if word.strip() else "0" for word in column] for column in words[1::2]]
+    words[1::2] = [[word if word.strip(" ") else "0" for word in column] for column in words[1::2]]
     lines = [k + 1 for k in indices]
     table = read_words(file, lines, words, _ROW)
     for k in np.flatnonzero(table[3]):

@@ -26,7 +26,8 @@ _NODE, _DIRECTION = label_column("node", -LARGEST_LABEL), label_column("directio
 _SKIPPED = re.compile(r"[ \t\r]*(?:[%#!$]|\*\*|$)")
 # What may stand above the entries; a scale factor, for one, would change them.
 _KEYWORD = re.compile(
-    r"\*matrix\s*(input\s*)?(,\s*(name\s*=[^,]*|type\s*=\s*(stiffness|symmetric|unsymmetric)\s*))*$", re.IGNORECASE
+    r"\*matrix\s*(inp(ut?)?\s*)?(,\s*(name?\s*=[^,]*|type?\s*=\s*(stiffness|symmetric|unsymmetric)\s*))*$",
+    re.IGNORECASE,
 )
 _NO_ENTRY = "{} is no entry of a matrix: give the file that *MATRIX OUTPUT writes"
 _COMMENT = re.compile(r"(?<![^ \t\r,;])[#!].*")
@@ -38,15 +39,15 @@ _DOT = re.compile(r"(?<=\d)\.(?=\d)", re.ASCII)
 class Entries:
     """Entries in the order of a file, and the line of each.
 
-    Rows and columns count from 0, or are `named` by keys. `rows`: their number, 0 if only the entries say so. `whole`:
-    an entry that is missing is zero; otherwise it may be that of the other triangle.
+    Rows and columns count from 0, or are keys if there are `names`, the keys of all or some. `rows`: their number, 0 if
+    only the entries say so. `whole`: an entry that is missing is zero; otherwise it may be that of the other triangle.
     """
 
     row: Keys
     column: Keys
     value: NDArray[np.float64]
     line: NDArray[np.int64]
-    named: bool = False
+    names: Keys | None = None
     rows: int = 0
     whole: bool = False
 
@@ -79,7 +80,8 @@ def read_entries(file: TextFile, rows: int) -> Entries:
         labels = [label_column(name, 1, rows or LARGEST_LABEL - 1) for name in ("row", "column")]
         table = read_columns(file, lines, [*labels, Column()], _words, comma=True)
         row, column = table[0] - 1, table[1] - 1
-    return Entries(row.astype(np.int64), column.astype(np.int64), table[-1], np.array(lines), named=count == 5)
+    row, column = row.astype(np.int64), column.astype(np.int64)
+    return Entries(row, column, table[-1], np.array(lines), names=row if count == 5 else None)
 
 
 def read_row_names(path: PathLike) -> Keys:
@@ -112,7 +114,7 @@ def split_columns(line: str) -> list[str]:
 
 def _words(line: str, count: int) -> list[str]:
     words = split_columns(line)
-    if len(words) != count and line[0] == "*":
+    if line[0] == "*":
         raise Reason(_NO_ENTRY.format(quoted(line)))
     if len(words) != count:
         raise Reason(f"{len(words)} column(s), but the first entry has {count}: is the file cut off?")

@@ -66,7 +66,7 @@ def read_words(file: TextFile, numbers: Numbers, words: Sequence[Sequence[str]],
     """As `read_columns`, of words with blanks around them, a sequence for each column; `numbers` are their lines."""
     table = _at_once(words, columns)
     if table is None:
-        rows = [[word.strip(BLANKS) for word in row] for row in zip(*words)]
+        rows = [[word.strip(" ") for word in row] for row in zip(*words)]
         return _one_by_one(file, numbers, rows, columns, lambda row, _: row)
     return table
 

@@ -42,9 +42,9 @@ _RUN = re.compile(r"[ \t]*(\d{1,10})(?:[ \t]+(\d{1,10}))?(?:[ \t]+(\d{1,10}))?[ 
 
 def op4_header(line: str) -> Op4Header | None:
     """The header that a line is: four whole numbers of eight columns, and a name."""
-    columns, rows, _, number_type = [whole(line[k : k + 8].strip(" ")) for k in range(0, 32, 8)]
+    columns, rows, form, number_type = [whole(line[k : k + 8].strip(" ")) for k in range(0, 32, 8)]
     name = line[32:40].rstrip(" \r")
-    if columns is None or rows is None or number_type is None or not re.match("[A-Za-z]", name):
+    if columns is None or rows is None or form is None or number_type is None or not re.match("[A-Za-z]", name):
         return None
     width = re.search("[EDG](\\d*)", line[40:], re.IGNORECASE | re.ASCII)
     known = width is not None and re.fullmatch("[89]|[1-5]\\d|6[0-4]", width[1])
@@ -55,13 +55,15 @@ def op4_header(line: str) -> Op4Header | None:
 def read_op4(file: TextFile, name: str, rows: int) -> Entries:
     """Read the matrix called `name`, or the only one if it is blank, of so many rows, unless 0; without its zeros."""
     seen, chosen, k = "", None, 0
-    while k < len(file.lines) and not (chosen and name):
+    while k < len(file.lines):
         if not file.lines[k].strip(BLANKS):
             k += 1
             continue
         header = op4_header(file.lines[k])
         if header is None:
             raise file.refuse(k + 1, "the header of a matrix is needed here: columns, rows, form, type (4I8) and name")
+        if chosen and name:
+            break
         if chosen:
             both = f"{quoted(seen)} and {quoted(header.name)}"
             raise file.refuse(k + 1, f"the file holds the matrices {both}: pass the name of the one to read")

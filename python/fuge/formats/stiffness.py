@@ -105,14 +105,14 @@ def _both_triangles(file: TextFile, entries: Entries, names: Keys | None) -> Sti
     row, column, value, count = entries.row, entries.column, entries.value, len(entries.value)
     if count == 0:
         raise refusal(file.path, "the file has no entry of a matrix")
-    if entries.named and names is not None:
-        raise refusal(file.path, "the file names the nodes of its entries itself: pass no file of names")
-    if entries.named:
-        names, place = np.unique(np.concatenate([row, column]), return_inverse=True)
-        row, column = place.reshape(2, -1)
+    if entries.names is not None:
+        if names is not None:
+            raise refusal(file.path, "the file names the nodes of its entries itself: pass no file of names")
+        names, place = np.unique(np.concatenate([row, column, entries.names]), return_inverse=True)
+        row, column = place[: 2 * count].reshape(2, -1)
     last = int(max(row.max(), column.max())) + 1
     rows = entries.rows or (last if names is None else len(names))
-    if names is not None and last < rows:
+    if entries.names is None and names is not None and last < rows:
         reason = f"the file ends with row {last}, but {rows} rows are named: is it cut off, or of another model?"
         raise refusal(file.path, reason)
     if rows > count:
