@@ -7,7 +7,7 @@ The format: R. F. Boisvert, R. Pozo, K. A. Remington, The Matrix Market exchange
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -32,8 +32,8 @@ _LARGEST_SIZE = 2**31 - 2
 _EMPTY_ROOM = 10**7
 
 _SKIPPED = re.compile(r"[ \t\r]*(?:%|$)")
+# An exponent follows a letter here.
 _BARE_EXPONENT = re.compile(r"[^eEdD]*[\d.][+-]")
-_INTEGER = re.compile(r"[+-]?\d+", re.ASCII)
 
 
 def read_matrix(path: PathLike) -> NDArray[np.float64]:
@@ -80,6 +80,12 @@ def compressed_columns(
     return CompressedColumns(shape, matrix.indptr.astype(np.intc), matrix.indices.astype(np.intc), matrix.data)
 
 
+def mirrored(row: NDArray[Any], column: NDArray[Any], number: NDArray[Any]) -> tuple[NDArray[Any], ...]:
+    """Entries of one triangle, followed by those of the other one."""
+    off = row != column
+    return np.append(row, column[off]), np.append(column, row[off]), np.append(number, number[off])
+
+
 def _read(file: TextFile, dense: bool) -> CompressedColumns:
     coordinate, integers, symmetric = _banner(file)
     lines = [k for k, line in enumerate(file.lines, 1) if k > 1 and not _SKIPPED.match(line)]
@@ -100,9 +106,7 @@ def _read(file: TextFile, dense: bool) -> CompressedColumns:
         for k in np.flatnonzero(row < column):
             reason = "is above the diagonal: a symmetric file holds the lower triangle only"
             raise file.refuse(lines[k + 1], f"entry ({row[k] + 1}, {column[k] + 1}) {reason}")
-        off = row != column
-        row, column = np.concatenate([row, column[off]]), np.concatenate([column, row[off]])
-        number = np.concatenate([number, number[off]])
+        row, column, number = mirrored(row, column, number)
     position, first, place = np.unique(column * rows + row, return_index=True, return_inverse=True)
     if len(first) < len(number):
         # Entries of one position are added in the order of the file.
@@ -136,20 +140,18 @@ def _sizes(file: TextFile, lines: list[int], coordinate: bool, symmetric: bool) 
     """Numbers of rows, columns and entries, from the first of these lines, which is followed by as many entries."""
     if not lines:
         raise file.refuse(len(file.lines), "the file ends before the line with the sizes")
-    sizes = [whole(word) for word in blank_words(file.lines[lines[0] - 1])]
-    rows, columns, entries = [-1 if size is None else size for size in [*sizes, 0, 0, 0][:3]]
-    if not coordinate:
-        entries = rows * (rows + 1) // 2 if symmetric else rows * columns
-    present, reason = len(lines) - 1, ""
-    if len(sizes) != (3 if coordinate else 2) or None in sizes:
-        needed = "three whole numbers are needed here: rows, columns, entries"
-        reason = needed if coordinate else "two whole numbers are needed here: rows, columns"
-    elif min(rows, columns, entries) < 0 or max(rows, columns, entries * coordinate) > _LARGEST_SIZE:
-        reason = f"sizes must be from 0 to {_LARGEST_SIZE}"
-    elif symmetric and rows != columns:
-        reason = "a symmetric matrix needs as many rows as columns"
-    if reason:
-        raise file.refuse(lines[0], reason)
+    words = blank_words(file.lines[lines[0] - 1])
+    sizes = [size for size in map(whole, words) if size is not None]
+    if len(words) != len(sizes) or len(sizes) != 2 + coordinate:
+        needed = "three {}, entries" if coordinate else "two {}"
+        raise file.refuse(lines[0], needed.format("whole numbers are needed here: rows, columns"))
+    if min(sizes) < 0 or max(sizes) > _LARGEST_SIZE:
+        raise file.refuse(lines[0], f"sizes must be from 0 to {_LARGEST_SIZE}")
+    rows, columns = sizes[:2]
+    if symmetric and rows != columns:
+        raise file.refuse(lines[0], "a symmetric matrix needs as many rows as columns")
+    entries = sizes[2] if coordinate else rows * (rows + 1) // 2 if symmetric else rows * columns
+    present = len(lines) - 1
     if present < entries:
         raise file.refuse(len(file.lines), f"the file ends after {present} of {entries} entries")
     if present > entries:
@@ -165,7 +167,6 @@ def _one_entry(line: str, count: int) -> list[str]:
 
 
 def _real(word: str) -> float:
-    """A value, whose exponent follows a letter."""
     if _BARE_EXPONENT.match(word):
         raise Reason(f"{quoted(word)} is not a number")
     return value(word)
@@ -173,7 +174,7 @@ def _real(word: str) -> float:
 
 def _whole(word: str) -> float:
     number = _real(word)
-    if not _INTEGER.fullmatch(word):
+    if not word.lstrip("+-").isdecimal():
         raise Reason(f"{quoted(word)} is not a whole number, although the banner says integer")
     return number
 
@@ -223,14 +224,9 @@ def _write(
     for k in np.flatnonzero(~np.isfinite(number)):
         reason = f"entry ({row[k]}, {column[k]}) = {number[k]} is not a finite number"
         raise InputError(reason, Status.ERR_NOT_FINITE)
-    table = [row + 1, column + 1, number] if kind == "coordinate" else [number]
-    sizes = [*shape, len(number)][: 2 + len(table) // 2]
-
-    def parts() -> Iterator[str]:
-        yield f"%%MatrixMarket matrix {kind} real {'symmetric' if symmetric else 'general'}\n"
-        yield " ".join(map(str, sizes)) + "\n"
-        form = "%d " * (len(table) - 1) + "%.16e\n"
-        for block in zip(*map(blocks, table)):
-            yield "".join([form % entry for entry in zip(*(numbers.tolist() for numbers in block))])
-
-    write_text(path, parts())
+    form, table, sizes = "%d %d %.16e\n", np.column_stack([row + 1, column + 1, number]), [*shape, len(number)]
+    if kind == "array":
+        form, table, sizes = "%.16e\n", table[:, 2:], sizes[:2]
+    head = f"%%MatrixMarket matrix {kind} real {'symmetric' if symmetric else 'general'}\n{' '.join(map(str, sizes))}\n"
+    entries = (form * len(part) % tuple(part.ravel().tolist()) for part in blocks(table))
+    write_text(path, chain([head], entries))

@@ -23,7 +23,9 @@ DIRECTIONS = 10000
 
 _NODE, _DIRECTION = label_column("node", -LARGEST_LABEL), label_column("direction", 0, DIRECTIONS - 1)
 
-_SKIPPED = re.compile(r"[ \t\r]*(?:[%#!$]|\*\*|$)")
+SKIPPED = re.compile(r"[ \t\r]*(?:[%#!$]|\*\*|$)")
+"""Matches lines that are blank, or a comment of one of the programs."""
+
 # What may stand above the entries; a scale factor, for one, would change them.
 _KEYWORD = re.compile(
     r"\*matrix\s*(inp(ut?)?\s*)?(,\s*(name?\s*=[^,]*|type?\s*=\s*(stiffness|symmetric|unsymmetric)\s*))*$",
@@ -103,7 +105,7 @@ def read_row_names(path: PathLike) -> Keys:
 
 def _lines(file: TextFile) -> list[int]:
     """The numbers of the lines that are neither blank nor a comment."""
-    return [number for number, line in enumerate(file.lines, 1) if not _SKIPPED.match(line)]
+    return [number for number, line in enumerate(file.lines, 1) if not SKIPPED.match(line)]
 
 
 def split_columns(line: str) -> list[str]:

@@ -11,8 +11,8 @@ import numpy as np
 from fuge import _arrays
 from fuge.columns import CompressedColumns
 from fuge.formats.dmig import read_dmig
-from fuge.formats.matrix_market import compressed_columns, read_sparse
-from fuge.formats.matrix_rows import DIRECTIONS, Entries, Keys, read_entries, read_row_names, row_name
+from fuge.formats.matrix_market import compressed_columns, mirrored, read_sparse
+from fuge.formats.matrix_rows import DIRECTIONS, SKIPPED, Entries, Keys, read_entries, read_row_names, row_name
 from fuge.formats.op4 import op4_header, read_op4
 from fuge.formats.text import PathLike, TextFile, read_text, refusal
 from fuge.stiffness_rows import StiffnessFile
@@ -21,7 +21,6 @@ StiffnessFormat = Literal["any", "matrix_market", "calculix", "abaqus", "dmig", 
 
 # A binary file begins with the length of its first record, six words of 4 or 8 bytes, in 4 or 8 bytes.
 _BINARY = re.compile("[\x18\x30]\0\0\0|\0\0\0[\x00\x18\x30]")
-_SKIPPED = re.compile(r"[ \t\r]*(?:[%#!$]|\*\*|$)")
 
 
 def read_stiffness(
@@ -83,7 +82,7 @@ def _recognised(file: TextFile) -> StiffnessFormat:
     """The format of the first line that is neither blank nor a comment."""
     if file.lines and file.lines[0][:14].lower() == "%%matrixmarket":
         return "matrix_market"
-    line = next((line for line in file.lines if not _SKIPPED.match(line)), "")
+    line = next((line for line in file.lines if not SKIPPED.match(line)), "")
     if op4_header(line):
         return "op4"
     # A word of bulk data; DMIG need not be the first one.
@@ -127,9 +126,7 @@ def _both_triangles(file: TextFile, entries: Entries, names: Keys | None) -> Sti
         raise file.refuse(int(entries.line[k]), reason)
     # Unless some pair of positions has two entries, the other triangle is the mirror image.
     if not entries.whole and np.all(np.diff(positions // 2)):
-        off = row != column
-        row, column = np.concatenate([row, column[off]]), np.concatenate([column, row[off]])
-        value = np.concatenate([value, value[off]])
+        row, column, value = mirrored(row, column, value)
     return _named(compressed_columns((rows, rows), row, column, value), names)
 
 
