@@ -130,19 +130,21 @@ from fuge.files import (
     fill_surface as fill_surface,
     level_profile as level_profile,
     level_surface as level_surface,
-    read_matrix as read_matrix,
     read_profile as read_profile,
-    read_sparse as read_sparse,
-    read_stiffness as read_stiffness,
     read_surface as read_surface,
     sample_profile as sample_profile,
-    write_matrix as write_matrix,
     write_results as write_results,
-    write_sparse as write_sparse,
     write_surface as write_surface,
     write_volume as write_volume,
 )
 from fuge.formats.decks import read_deck as read_deck
+from fuge.formats.matrix_market import (
+    read_matrix as read_matrix,
+    read_sparse as read_sparse,
+    write_matrix as write_matrix,
+    write_sparse as write_sparse,
+)
+from fuge.formats.stiffness import read_stiffness as read_stiffness
 from fuge.halfplane import (
     ContactEdges as ContactEdges,
     EdgeKind as EdgeKind,

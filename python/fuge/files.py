@@ -1,4 +1,4 @@
-"""Matrices, stiffness matrices, profiles and surfaces in files; doc/files.md describes the formats."""
+"""Profiles and surfaces in files; doc/files.md describes the formats."""
 
 from __future__ import annotations
 
@@ -13,18 +13,14 @@ from fuge import _arrays
 from fuge._calls import call
 from fuge._instruments import REMARK, read_instrument
 from fuge._words import Words
-from fuge.columns import CompressedColumns, compressed
 from fuge.errors import FileError, Status
-from fuge.stiffness_rows import StiffnessFile
 
 PathLike = Union[str, "os.PathLike[str]"]
-StiffnessFormat = Literal["any", "matrix_market", "calculix", "abaqus", "dmig", "op4"]
 SurfaceFormat = Literal["any", "grid", "points", "sdf"]
 
 ProfileForm = Literal["mean", "line"]
 SurfaceForm = Literal["mean", "plane"]
 
-STIFFNESS_FORMATS = Words("format", StiffnessFormat, "STIFFNESS_")
 SURFACE_FORMATS = Words("format", SurfaceFormat, "FILE_")
 PROFILE_FORMS = Words("form", ProfileForm, "LEVEL_")
 SURFACE_FORMS = Words("form", SurfaceForm, "LEVEL_")
@@ -41,114 +37,6 @@ def _counts(number: int) -> list[NDArray[np.intc]]:
 
 def _value(count: NDArray[np.intc]) -> int:
     return int(count[0])
-
-
-# ---- matrices
-
-
-def read_matrix(path: PathLike) -> NDArray[np.float64]:
-    """Read a matrix of the Matrix Market format, shape (rows, columns); both triangles of a symmetric one.
-
-    Raises
-    ------
-    FileError
-        The message has the file, the line and the reason.
-    """
-    rows, columns = _counts(2)
-    call("fuge_read_matrix", encoded(path), 0, 0, None, rows, columns)
-    matrix = np.zeros((_value(rows), _value(columns)), order="F")
-    call("fuge_read_matrix", encoded(path), *matrix.shape, matrix, rows, columns)
-    return matrix
-
-
-def write_matrix(path: PathLike, matrix: ArrayLike, *, symmetric: bool = False) -> None:
-    """Write a matrix to a file of the Matrix Market format, with 17 digits; an existing file is replaced.
-
-    Parameters
-    ----------
-    path : str or path
-    matrix : array_like, shape (rows, columns)
-    symmetric : bool
-        Only the lower triangle of a square matrix is written.
-    """
-    array = _arrays.columns("matrix", matrix, (None, None))
-    rows, columns = array.shape
-    call("fuge_write_matrix", encoded(path), rows, columns, array, rows, int(bool(symmetric)))
-
-
-def read_sparse(path: PathLike) -> CompressedColumns:
-    """Read a matrix of the Matrix Market format into compressed columns; both triangles of a symmetric one.
-
-    Raises
-    ------
-    FileError
-        The message has the file, the line and the reason.
-    """
-    counts = _counts(3)
-    call("fuge_read_sparse", encoded(path), 0, 0, None, None, None, *counts)
-    rows, columns, entries = (_value(count) for count in counts)
-    column, row = np.empty(columns + 1, dtype=np.intc), np.empty(entries, dtype=np.intc)
-    value = np.empty(entries)
-    call("fuge_read_sparse", encoded(path), columns, entries, column, row, value, *counts)
-    return CompressedColumns((rows, columns), column, row, value)
-
-
-def write_sparse(path: PathLike, matrix: Any, *, symmetric: bool = False) -> None:
-    """Write a sparse matrix (scipy.sparse or CompressedColumns) to a file of the Matrix Market format.
-
-    With `symmetric` only the lower triangle of a square matrix is written.
-    """
-    columns = compressed("matrix", matrix)
-    call(
-        "fuge_write_sparse",
-        encoded(path),
-        *columns.shape,
-        columns.column,
-        columns.row,
-        columns.value,
-        int(bool(symmetric)),
-    )
-
-
-def read_stiffness(
-    path: PathLike,
-    format: StiffnessFormat = "any",
-    *,
-    names_path: PathLike | None = None,
-    name: str | None = None,
-) -> StiffnessFile:
-    """Read a stiffness matrix from a file of a finite element program.
-
-    Parameters
-    ----------
-    path : str or path
-    format : {'any', 'matrix_market', 'calculix', 'abaqus', 'dmig', 'op4'}
-        'any' recognises it by its content.
-    names_path : str or path, optional
-        For a matrix whose rows have no names: a file with a line node.direction for each row. By default that of
-        job.sti is job.dof.
-    name : str, optional
-        Name of the matrix in a file of Nastran, such as KAAX.
-
-    Raises
-    ------
-    FileError
-        The message has the file, the line and the reason.
-    """
-    arguments = [
-        encoded(path),
-        STIFFNESS_FORMATS.number(format),
-        None if names_path is None else encoded(names_path),
-        None if name is None else name.encode(),
-    ]
-    counts = _counts(2)
-    call("fuge_read_stiffness", *arguments, 0, 0, *[None] * 5, *counts)
-    rows, entries = (_value(count) for count in counts)
-    column, row = np.empty(rows + 1, dtype=np.intc), np.empty(entries, dtype=np.intc)
-    value = np.empty(entries)
-    node, direction = np.empty(rows, dtype=np.intc), np.empty(rows, dtype=np.intc)
-    call("fuge_read_stiffness", *arguments, rows, entries, column, row, value, node, direction, *counts)
-    return StiffnessFile((rows, rows), column, row, value, node, direction)
 
 
 # ---- profiles

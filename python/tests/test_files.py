@@ -21,44 +21,6 @@ class InFolder(unittest.TestCase):
         return path
 
 
-class Matrices(InFolder):
-    def test_dense(self):
-        path = self.folder / "a.mtx"
-        matrix = np.random.default_rng(1).random((3, 2))
-        for array in (matrix, np.asfortranarray(matrix)):
-            fuge.write_matrix(path, array)
-            np.testing.assert_array_equal(fuge.read_matrix(path), matrix)
-        square = matrix @ matrix.T
-        fuge.write_matrix(str(path), square, symmetric=True)
-        np.testing.assert_array_equal(np.tril(fuge.read_matrix(path)), np.tril(square))
-
-    def test_sparse(self):
-        path = self.folder / "k.mtx"
-        fuge.write_sparse(
-            path, fuge.CompressedColumns((2, 3), np.array([0, 1, 1, 3]), np.array([1, 0, 1]), np.arange(1.0, 4))
-        )
-        back = fuge.read_sparse(path)
-        self.assertEqual(back.shape, (2, 3))
-        np.testing.assert_array_equal(back.column, [0, 1, 1, 3])
-        np.testing.assert_array_equal(back.row, [1, 0, 1])
-        np.testing.assert_array_equal(back.value, [1.0, 2.0, 3.0])
-        np.testing.assert_array_equal(fuge.read_matrix(path), [[0, 0, 2], [1, 0, 3]])
-
-    def test_stiffness(self):
-        path = self.file("k.mtx", "*MATRIX,TYPE=STIFFNESS\n1,1, 1,1,  2.0\n1,1, 2,1, -1.0\n2,1, 2,1, 2.0\n")
-        stiffness = fuge.read_stiffness(path, "abaqus")
-        np.testing.assert_array_equal(stiffness.node, [1, 2])
-        np.testing.assert_array_equal(stiffness.direction, [1, 1])
-        np.testing.assert_array_equal(stiffness.value, [2.0, -1.0, -1.0, 2.0])
-
-    def test_missing(self):
-        with self.assertRaises(fuge.FileError) as caught:
-            fuge.read_matrix(self.folder / "none.mtx")
-        self.assertEqual(caught.exception.status, fuge.Status.ERR_FILE)
-        self.assertIn("none.mtx", caught.exception.message)
-        self.assertRaises(OSError, fuge.read_stiffness, self.file("k", "?\n"))
-
-
 class Profiles(InFolder):
     def test_profile(self):
         x, z = fuge.read_profile(self.file("p.txt", "x z\n0 1\n1, 3\n2; 1\n"))
