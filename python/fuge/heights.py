@@ -21,18 +21,20 @@ LARGEST = 2.0**992
 _END_TOLERANCE = 1e-12
 
 
-def _refuse(status: Status, name: str, values: Doubles, wrong: NDArray[np.bool_], reason: str) -> None:
+def refuse_numbers(status: Status, name: str, values: Doubles, wrong: NDArray[np.bool_], reason: str) -> None:
     """Name the first of the values that are wrong, if there are any."""
     if wrong.any():
         place = np.unravel_index(int(np.argmax(wrong)), wrong.shape)
-        raise error(status, f"{name}[{', '.join(map(str, place))}] = {values[place]:.7g} {reason}")
+        value = f"{values[place]:.7g}".replace("nan", "NaN").replace("inf", "Inf")
+        raise error(status, f"{name}[{', '.join(map(str, place))}] = {value} {reason}")
 
 
-def _check(name: str, values: Doubles, hint: str = "", holes: bool = False) -> None:
+def check_numbers(name: str, values: Doubles, hint: str = "", holes: bool = False) -> None:
+    """Refuse numbers that are not finite, or out of range; NaN passes with `holes`."""
     wrong = np.isinf(values) if holes else ~np.isfinite(values)
-    _refuse(Status.ERR_NOT_FINITE, name, values, wrong, f"is not a finite number{hint}")
+    refuse_numbers(Status.ERR_NOT_FINITE, name, values, wrong, f"is not a finite number{hint}")
     too_large = np.abs(values) > LARGEST
-    _refuse(Status.ERR_OVERFLOW, name, values, too_large, "is out of range: choose another unit of length")
+    refuse_numbers(Status.ERR_OVERFLOW, name, values, too_large, "is out of range: choose another unit of length")
 
 
 def checked_heights(height: ArrayLike, holes: bool = False) -> Doubles:
@@ -40,7 +42,7 @@ def checked_heights(height: ArrayLike, holes: bool = False) -> Doubles:
     heights = _arrays.doubles("height", height, ("ny", "nx"))
     if heights.size == 0:
         raise error(Status.ERR_SIZE, "the surface has no heights")
-    _check("height", heights, ": if the point was not measured, fill it by fill_surface", holes)
+    check_numbers("height", heights, ": if the point was not measured, fill it by fill_surface", holes)
     return heights
 
 
@@ -107,11 +109,11 @@ def _profile(x: ArrayLike, z: ArrayLike) -> tuple[Doubles, Doubles]:
     heights = _arrays.vector("z", z, places.size)
     if places.size < 2:
         raise error(Status.ERR_SIZE, f"x and z have {places.size} value(s): a profile needs 2 or more")
-    _check("x", places)
-    _check("z", heights)
+    check_numbers("x", places)
+    check_numbers("z", heights)
     stays = np.diff(places, prepend=-np.inf) <= 0.0
     reason = "does not exceed the one before: x must increase; sort the points and merge repeated ones"
-    _refuse(Status.ERR_WIDTH, "x", places, stays, reason)
+    refuse_numbers(Status.ERR_WIDTH, "x", places, stays, reason)
     return places, heights
 
 
@@ -126,11 +128,11 @@ def sample_profile(x: ArrayLike, z: ArrayLike, centre: ArrayLike) -> Doubles:
     places, heights = _profile(x, z)
     centres = _arrays.doubles("centre", centre)
     points = centres.reshape(-1)
-    _check("centre", points)
+    check_numbers("centre", points)
     first, last = places[0], places[-1]
     outside = np.maximum(first - points, points - last) > _END_TOLERANCE * (last - first)
     reason = f"is outside the profile, {first:.7g} .. {last:.7g}: extend the profile, or leave the point out"
-    _refuse(Status.ERR_WIDTH, "centre", points, outside, reason)
+    refuse_numbers(Status.ERR_WIDTH, "centre", points, outside, reason)
     left = np.clip(np.searchsorted(places, points, side="right") - 1, 0, places.size - 2)
     fraction = np.clip((points - places[left]) / (places[left + 1] - places[left]), 0.0, 1.0)
     return np.asarray((1.0 - fraction) * heights[left] + fraction * heights[left + 1]).reshape(centres.shape)

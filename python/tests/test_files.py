@@ -59,53 +59,7 @@ class Matrices(InFolder):
         self.assertRaises(OSError, fuge.read_stiffness, self.file("k", "?\n"))
 
 
-class Profiles(InFolder):
-    def test_profile(self):
-        x, z = fuge.read_profile(self.file("p.txt", "x z\n0 1\n1, 3\n2; 1\n"))
-        np.testing.assert_array_equal(x, [0, 1, 2])
-        np.testing.assert_array_equal(z, [1, 3, 1])
-        np.testing.assert_allclose(fuge.sample_profile(x, z, [[0.5], [1.25]]), [[2.0], [2.5]], rtol=1e-14)
-        level = fuge.level_profile(x, z, "mean")
-        np.testing.assert_allclose(level, [-1, 1, -1], rtol=1e-14)
-        np.testing.assert_array_equal(z, [1, 3, 1])
-        np.testing.assert_allclose(fuge.level_profile(x, 3 * x, "line"), 0.0, atol=1e-14)
-        self.assertRaises(fuge.InputError, fuge.sample_profile, x, z, 3.0)
-        self.assertRaises(fuge.InputError, fuge.level_profile, x, z, "plane")
-
-
-class Surfaces(InFolder):
-    def test_rows_and_columns(self):
-        height = np.arange(12.0).reshape(3, 4) / 7
-        path = self.folder / "s.txt"
-        fuge.write_surface(path, height, (0.5, 0.25))
-        surface = fuge.read_surface(path)
-        np.testing.assert_array_equal(surface.height, height)
-        self.assertEqual(surface.spacing, (0.5, 0.25))
-        self.assertEqual(surface.filled, 0)
-        fuge.write_surface(path, height)
-        self.assertIsNone(fuge.read_surface(path, "grid").spacing)
-        np.testing.assert_allclose(fuge.level_surface(height, "plane"), 0.0, atol=1e-14)
-        np.testing.assert_allclose(fuge.level_surface(height, "mean"), height - height.mean(), atol=1e-14)
-
-    def test_filling(self):
-        path = self.file("s.txt", "1 2 3 4\n4 nan 6 7\n7 8 9 9\n")
-        self.assertRaises(fuge.FileError, fuge.read_surface, path)
-        surface = fuge.read_surface(path, fill=True)
-        self.assertEqual(surface.filled, 1)
-        self.assertAlmostEqual(surface.height[1, 1], 5.0, delta=1e-14)
-
-    def test_filling_of_arrays(self):
-        height = np.array([[1.0, 2.0, 3.0], [np.nan, np.nan, 8.0]])
-        filled = fuge.fill_surface(height)
-        np.testing.assert_array_equal(filled, [[1.0, 2.0, 3.0], [1.0, 5.0, 8.0]])
-        self.assertTrue(np.isnan(height[1, 0]))
-        masked = np.ma.masked_greater(np.array([[1.0, 9.0, 3.0]]), 5.0)
-        np.testing.assert_array_equal(fuge.fill_surface(np.ma.filled(masked, np.nan)), [[1.0, 2.0, 3.0]])
-        self.assertRaisesRegex(fuge.InputError, "all heights are NaN", fuge.fill_surface, [[np.nan]])
-        height[1, 0] = np.inf
-        self.assertRaisesRegex(fuge.InputError, r"height\[1, 0\] = Inf", fuge.fill_surface, height)
-        self.assertRaises(fuge.InputError, fuge.fill_surface, height[0])
-
+class Pictures(InFolder):
     def test_pictures(self):
         field = np.arange(6.0).reshape(2, 3)
         path = self.folder / "f.vti"

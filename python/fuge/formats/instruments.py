@@ -32,7 +32,7 @@ _EXAMINED = 4096
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x19\x1b-\x1f]")
 
 # SurfaceTopography takes files for these that no signature tells from others.
-_GUESSED = {"asc", "xyz", "hgt", "nms", "npy", "npz"}
+_GUESSED = {"asc", "xyz", "hgt", "nms"}
 
 
 def failure(path: PathLike, reason: str) -> FileError:
@@ -96,5 +96,7 @@ def read_instrument(path: PathLike, name: str) -> Heights:
     # Heights are masked where nothing was measured, and the first index counts along x.
     heights = scale * np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan)
     spacing_x, spacing_y = (scale * float(size) for size in topography.pixel_size)
+    if not 0.0 < min(spacing_x, spacing_y) <= max(spacing_x, spacing_y) < np.inf:
+        raise failure(path, f"is {name}: its spacings, {spacing_x:.7g} and {spacing_y:.7g}, are no lengths")
     unit = None if unit is None else "m"
     return Heights(np.ascontiguousarray(heights.T), (spacing_x, spacing_y), unit=unit, header=header)

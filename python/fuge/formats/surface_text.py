@@ -70,7 +70,8 @@ def _gwyddion_sizes(rows: Rows) -> tuple[float, float, float] | None:
 
 def _header_note(rows: Rows, made_of_it: str = "is not used") -> tuple[str, ...]:
     """What a header says about lengths, apart from comments with spacings."""
-    told = [line for line in rows.header if _TELLS_LENGTHS.search(line) and not _SPACING.fullmatch(line)]
+    taken = [line for line in rows.header for match in [_SPACING.fullmatch(line)] if match and _positive(match[2])]
+    told = [line for line in rows.header if _TELLS_LENGTHS.search(line) and line not in taken]
     shown = ", ".join(quoted(line.strip()) for line in told[:_NOTED_LINES])
     return (f"what its header says about lengths {made_of_it}: {shown}",) if told else ()
 
@@ -101,35 +102,30 @@ def read_grid(rows: Rows, fill: bool, certain: bool) -> Heights:
     return Heights(height * sizes[2], (sizes[0] / nx, sizes[1] / ny), unit="m", header=note)
 
 
-class _Axis(NamedTuple):
-    """Positions first + spacing*k, k < places, of a regular grid, and the k of each coordinate."""
+def _fitted_axis(x: NDArray[np.float64], name: str) -> tuple[float, float, int, NDArray[np.intp]]:
+    """The regular positions first + step*k, k < n, that fit coordinates best, by least squares: first, step, n, each k.
 
-    first: float
-    spacing: float
-    places: int
-    number: NDArray[np.intp]
-
-
-def _fitted_axis(x: NDArray[np.float64], name: str) -> _Axis:
-    """The axis that fits all coordinates best, by least squares; Reason if one of them is off its position."""
+    Reason if a coordinate is off its position.
+    """
     distinct = np.unique(x)
-    steps = np.diff(distinct)
-    if steps.size == 0:
-        return _Axis(float(x[0]), 0.0, 1, np.zeros(x.size, dtype=np.intp))
-    begins = np.append(distinct[0], distinct[1:][steps > _SAME_POSITION * steps.max()])
+    gaps = np.diff(distinct)
+    if gaps.size == 0:
+        return float(x[0]), 0.0, 1, np.zeros(x.size, dtype=np.intp)
+    begins = np.append(distinct[0], distinct[1:][gaps > _SAME_POSITION * gaps.max()])
     k = np.searchsorted(begins, x, side="right") - 1
-    spacing = (distinct[-1] - distinct[0]) / (begins.size - 1)
-    # How far coordinates are off, in steps: what is linear in k corrects the axis.
-    off = (x - distinct[0]) / spacing - k
+    step = (distinct[-1] - distinct[0]) / (begins.size - 1)
+    # How far coordinates are off, in steps: what is linear in k corrects the positions.
+    off = (x - distinct[0]) / step - k
     slope = (k - k.mean()) @ off / np.square(k - k.mean()).sum()
     shift = off.mean() - slope * k.mean()
-    axis = _Axis(float(distinct[0] + shift * spacing), float(spacing * (1.0 + slope)), begins.size, k)
     wrong = np.abs(off - shift - slope * k) > _TOLERANCE * (1.0 + slope)
+    first, step = float(distinct[0] + shift * step), float(step * (1.0 + slope))
     if wrong.any():
-        place = f"{name} = {x[np.argmax(wrong)]:.7g} is no multiple of the step {axis.spacing:.7g} away from {name} = "
-        remedy = "positions must be a regular grid, or the file is a grid of three columns"
-        raise Reason(f"{place}{axis.first:.7g}: {remedy}")
-    return axis
+        place = (
+            f"{name} = {x[np.argmax(wrong)]:.7g} is no multiple of the step {step:.7g} away from {name} = {first:.7g}"
+        )
+        raise Reason(f"{place}: positions must be a regular grid, or the file is a grid of three columns")
+    return first, step, begins.size, k
 
 
 def read_points(rows: Rows, fill: bool) -> Heights:
@@ -142,25 +138,23 @@ def read_points(rows: Rows, fill: bool) -> Heights:
     for row, _ in () if fill else np.argwhere(np.isnan(points))[:1]:
         raise _unmeasured(rows, row, 2)
     try:
-        x, y = (_fitted_axis(points[:, axis], "xy"[axis]) for axis in range(2))
+        x, dx, nx, i = _fitted_axis(points[:, 0], "x")
+        y, dy, ny, j = _fitted_axis(points[:, 1], "y")
     except Reason as reason:
         raise refusal(rows.path, reason) from None
-    if x.places * y.places // 2 > len(points):
-        grid = f"{x.places} positions x and {y.places} positions y"
-        raise refusal(rows.path, f"{len(points)} points are no full grid of {grid}")
-    place = y.number * x.places + x.number
-    named = np.bincount(place, minlength=x.places * y.places)
+    if nx * ny // 2 > len(points):
+        raise refusal(rows.path, f"{len(points)} points are no full grid of {nx} positions x and {ny} positions y")
+    place = nx * j + i
+    named = np.bincount(place, minlength=nx * ny)
     if named.max() > 1:
         second = int(np.setdiff1d(np.arange(len(place)), np.unique(place, return_index=True)[1])[0])
         position = f"x = {points[second, 0]:.7g}, y = {points[second, 1]:.7g}"
         remedy = "remove one of them, or say that the file is a grid of three columns"
         raise rows.refuse(second, f"a second point at {position}: {remedy}")
-    if not (fill or named.all()):
-        j, i = divmod(int(np.argmin(named)), x.places)
-        position = f"x = {x.first + i * x.spacing:.7g}, y = {y.first + j * y.spacing:.7g}"
-        grid = f"{x.places} x {y.places}: add it, or let missing points be filled"
-        raise refusal(rows.path, f"no point at {position} of a regular grid of {grid}")
-    height = np.full(named.size, np.nan)
+    for missing in () if fill else np.flatnonzero(named == 0)[:1]:
+        position = f"x = {x + missing % nx * dx:.7g}, y = {y + missing // nx * dy:.7g}"
+        remedy = "add it, or let missing points be filled"
+        raise refusal(rows.path, f"no point at {position} of a regular grid of {nx} x {ny}: {remedy}")
+    height = np.full(nx * ny, np.nan)
     height[place] = points[:, 2]
-    steps, origin = (x.spacing, y.spacing), (x.first, y.first)
-    return Heights(height.reshape(y.places, x.places), steps, origin, header=_header_note(rows))
+    return Heights(height.reshape(ny, nx), (dx, dy), (x, y), header=_header_note(rows))

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge.errors import Status, error
+from fuge.errors import Status
 from fuge.formats.instruments import failure, instrument_format, read_instrument
 from fuge.formats.rows import read_rows
 from fuge.formats.sdf import is_sdf, read_sdf
 from fuge.formats.surface_text import Heights, comment_spacings, read_grid, read_points
 from fuge.formats.text import PathLike, read_bytes, refusal
-from fuge.heights import checked_heights, fill_surface, rms_slope
+from fuge.heights import LARGEST, check_numbers, checked_heights, fill_surface, refuse_numbers, rms_slope
 
 SurfaceFormat = Literal["any", "grid", "points", "sdf"]
 
@@ -91,6 +91,8 @@ def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = 
     """
     _arrays.choice("format", format, {"any": 0, "grid": 1, "points": 2, "sdf": 3})
     found = _read(path, format, fill)
+    for j, i in np.argwhere(np.abs(found.height) > LARGEST)[:1]:
+        raise refusal(path, f"height[{j}, {i}] is out of range: choose another unit of length")
     holes = np.argwhere(np.isnan(found.height))
     if len(holes) == found.height.size:
         raise failure(path, "has no point that was measured")
@@ -138,11 +140,8 @@ def write_surface(path: PathLike, height: ArrayLike, spacing: tuple[float, float
     """
     heights = checked_heights(height)
     steps = np.zeros(2) if spacing is None else _arrays.vector("spacing", spacing, 2)
-    for axis, step in zip("xy", steps):
-        if not np.isfinite(step):
-            raise error(Status.ERR_NOT_FINITE, f"spacing_{axis} = {step} is not a finite number")
-        if step < 0.0:
-            raise error(Status.ERR_WIDTH, f"spacing_{axis} = {step} is negative: pass 0 if it is unknown")
+    check_numbers("spacing", steps)
+    refuse_numbers(Status.ERR_WIDTH, "spacing", steps, steps < 0.0, "is negative: pass 0 if it is unknown")
     row = " ".join(["%.16e"] * heights.shape[1]) + "\n"
     try:
         with open(path, "w", encoding="ascii") as file:
