@@ -125,18 +125,6 @@ from fuge.errors import (
     UnsupportedError as UnsupportedError,
     Warning as Warning,
 )
-from fuge.files import (
-    SurfaceHeights as SurfaceHeights,
-    fill_surface as fill_surface,
-    level_profile as level_profile,
-    level_surface as level_surface,
-    read_profile as read_profile,
-    read_surface as read_surface,
-    sample_profile as sample_profile,
-    write_results as write_results,
-    write_surface as write_surface,
-    write_volume as write_volume,
-)
 from fuge.formats.decks import read_deck as read_deck
 from fuge.formats.matrix_market import (
     read_matrix as read_matrix,
@@ -144,7 +132,13 @@ from fuge.formats.matrix_market import (
     write_matrix as write_matrix,
     write_sparse as write_sparse,
 )
+from fuge.formats.profiles import read_profile as read_profile
 from fuge.formats.stiffness import read_stiffness as read_stiffness
+from fuge.formats.surfaces import (
+    SurfaceHeights as SurfaceHeights,
+    read_surface as read_surface,
+    write_surface as write_surface,
+)
 from fuge.halfplane import (
     ContactEdges as ContactEdges,
     EdgeKind as EdgeKind,
@@ -161,6 +155,12 @@ from fuge.halfspace import (
     hertz_ellipse as hertz_ellipse,
     ring_displacement as ring_displacement,
     ring_matrix as ring_matrix,
+)
+from fuge.heights import (
+    fill_surface as fill_surface,
+    level_profile as level_profile,
+    level_surface as level_surface,
+    sample_profile as sample_profile,
 )
 from fuge.layer_points import (
     layered_halfplane_displacement as layered_halfplane_displacement,
@@ -208,6 +208,7 @@ from fuge.programs import (
     solve_qp as solve_qp,
 )
 from fuge.proof import Proof as Proof
+from fuge.results import write_results as write_results, write_volume as write_volume
 from fuge.smooth import (
     RoundContact as RoundContact,
     SmoothContact as SmoothContact,

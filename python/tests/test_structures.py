@@ -88,7 +88,7 @@ class Reactions(unittest.TestCase):
         self.assertRaises(fuge.InputError, body.reaction, np.zeros(6), [1.0, 2.0])
 
     def test_links_between_nodes(self):
-        # A node on springs of 100, linked to one that is fixed 5 away; E A/L = 100 takes half of a force along the link.
+        # A node on springs of 100, linked to one that is fixed 5 away: E A/L = 100 takes half of a force along it.
         ends = [0, 1], [2, 3], [0.0, 0.0], [3.0, 4.0]
         links = [fuge.Links() for _ in range(4)]
         links[0].add_member(*ends, area=1.0, modulus=500.0)

@@ -14,7 +14,7 @@ from fuge.command.mesh_model import AXES, MeshBody, MeshModel
 from fuge.command.options import Options, Setting
 from fuge.command.run import Log
 from fuge.errors import Status
-from fuge.files import read_stiffness
+from fuge.formats.stiffness import read_stiffness
 from fuge.formats.text import quoted_path
 from fuge.mesh import read_mesh
 

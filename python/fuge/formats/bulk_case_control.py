@@ -6,7 +6,6 @@ import re
 from dataclasses import dataclass, field
 
 from fuge.formats.bulk_words import EXECUTIVE_COMMANDS, HARMLESS_COMMANDS, check_parameter
-from fuge.formats.keyword import abbreviates
 from fuge.formats.text import Place, Reason, label, located, quoted, refusal
 
 _BULK = re.compile(r"\s*BEGIN\s+BULK(.*)", re.IGNORECASE)
@@ -87,10 +86,10 @@ class _Reader:
         if self.is_executive:
             self._read_executive(command, line)
             return
-        words = next((word for word in _WORDS if abbreviates(command, word, 4)), None)
+        words = next((word for word in _WORDS if _abbreviates(command, word)), None)
         if words is not None:
             self.subcases[-1].words[words] = value
-        elif abbreviates(command, "SUBCASE", 4):
+        elif _abbreviates(command, "SUBCASE"):
             self._begin(place, label(option + value.upper(), "subcase"))
         elif command in _SETS:
             self.subcases[-1].sets[command] = label(option + value.upper(), _SETS[command])
@@ -126,8 +125,13 @@ class _Reader:
 def _is_harmless(command: str, option: str, value: str) -> bool:
     if command in ("TEMP", "TEMPERATURE"):
         return "INIT" in option or "MATE" in option
-    if abbreviates(command, "ANALYSIS", 4):
+    if _abbreviates(command, "ANALYSIS"):
         return value.startswith(("STAT", "NLST"))
-    if abbreviates(command, "NLPARM", 4):
+    if _abbreviates(command, "NLPARM"):
         return "LGDISP" not in option
-    return any(abbreviates(command, word, 4) for word in HARMLESS_COMMANDS)
+    return any(_abbreviates(command, word) for word in HARMLESS_COMMANDS)
+
+
+def _abbreviates(text: str, word: str) -> bool:
+    """Whether text is a command or begins it with four letters or more."""
+    return text == word or (len(text) >= 4 and word.startswith(text))
