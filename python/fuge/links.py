@@ -219,8 +219,8 @@ class Links(Owner):
             code = function("fuge_links_describe")(
                 pointer, u.size, u, dimensions, nodes, places, degrees, message, MESSAGE_LENGTH + 1
             )
-            end_call(code, lambda: message.value.decode(errors="replace"))
-        return message.value.decode(errors="replace")
+            end_call(code, lambda: message.value.decode(errors="surrogateescape"))
+        return message.value.decode(errors="surrogateescape")
 
     def _contact(self) -> tuple[NDArray[np.intc], NDArray[np.float64]]:
         """Degrees of freedom and normals of all links, as :meth:`Body.set_contact` takes them."""
@@ -237,7 +237,7 @@ class Links(Owner):
 
     def _add(self, add: str, name: str | None, *arguments: Any) -> None:
         """Call a function that adds a link, and remember its name."""
-        self._call(add, *arguments, None if name is None else name.encode())
+        self._call(add, *arguments, None if name is None else name.encode(errors="surrogateescape"))
         self._names.append(name if name and name.strip() else f"link {len(self._names) + 1}")
 
 
