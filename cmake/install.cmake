@@ -1,4 +1,4 @@
-# Headers, libraries, the program, module files, CMake package, pkg-config files and documents.
+# Headers, libraries, module files, CMake package, pkg-config files and documents.
 #
 # A static and a shared library may share a prefix: each has its own file of targets.
 include(CMakePackageConfigHelpers)
@@ -9,7 +9,7 @@ set(library_kind shared)
 if(library_type STREQUAL "STATIC_LIBRARY")
   set(library_kind static)
 endif()
-set(for_programs COMPONENT fuge_runtime)
+set(for_running COMPONENT fuge_runtime)
 set(for_developers COMPONENT fuge_development)
 set(for_readers COMPONENT fuge_documents)
 
@@ -41,9 +41,9 @@ function(fuge_install_library target package)
   set(targets_file "${package}-${library_kind}-targets")
   install(TARGETS ${target} EXPORT ${targets_file}
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${for_developers}
-    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${for_programs}
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" ${for_running}
       NAMELINK_COMPONENT fuge_development
-    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" ${for_programs})
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" ${for_running})
   install(EXPORT ${targets_file} NAMESPACE fuge:: DESTINATION "${package_dir}" ${for_developers})
 
   set(pc_name ${package})
@@ -147,15 +147,3 @@ install(CODE "
 install(SCRIPT cmake/documents.cmake ${for_readers})
 install(DIRECTORY "${documents}/" DESTINATION "${doc_dir}" ${for_readers})
 install(FILES doc/man/fuge.3 DESTINATION "${CMAKE_INSTALL_MANDIR}/man3" ${for_readers})
-
-if(TARGET fuge_program)
-  # The program finds shared libraries beside it, so that the installed tree can be moved.
-  file(RELATIVE_PATH bin_to_lib "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
-  set(origin "$ORIGIN")
-  if(APPLE)
-    set(origin "@loader_path")
-  endif()
-  set_target_properties(fuge_program PROPERTIES INSTALL_RPATH "${origin}/${bin_to_lib}")
-  install(TARGETS fuge_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" ${for_programs})
-  install(FILES doc/man/fuge.1 DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" ${for_readers})
-endif()

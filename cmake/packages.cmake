@@ -116,14 +116,6 @@ endif()
 fuge_package(libfuge-dev SECTION libdevel DEPENDS "libfuge${fuge_soversion} ${exactly}${for_fortran}"
   RECOMMENDS "pkg-config"
   ABOUT "frictionless elastic contact, development files for C and Fortran" FILES "^lib" "^include/" "/man3/")
-if(TARGET fuge_program)
-  set(needed "libfuge${fuge_soversion} ${exactly}")
-  if(TARGET fuge_sparse)
-    string(APPEND needed ", libfuge-sparse${fuge_soversion} ${exactly}")
-  endif()
-  fuge_package(fuge SECTION science DEPENDS "${needed}"
-    ABOUT "frictionless elastic contact, from files to a table" FILES "^bin/" "/man1/")
-endif()
 fuge_package(fuge-doc FOR_ALL SECTION doc ABOUT "frictionless elastic contact, manual" FILES "^share/doc/")
 
 set(CPACK_COMPONENTS_ALL ${fuge_packages})

@@ -44,4 +44,4 @@ endforeach()
 list(REMOVE_DUPLICATES found)
 list(JOIN found "|" pattern)
 execute_process(COMMAND "${CMAKE_COMMAND}" -E echo
-  "^(topics|hard|program|structure|legacy|sparse|${pattern})$")
+  "^(topics|hard|structure|legacy|sparse|${pattern})$")

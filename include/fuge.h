@@ -78,6 +78,6 @@
 #include "fuge_punch.h"   /* smooth punches and round ones, without a grid */
 #include "fuge_stress.h"  /* stresses and displacements in the bodies */
 #include "fuge_fe.h"      /* bodies of finite elements: condensation, pairs of surfaces */
-#include "fuge_files.h"   /* profiles, surfaces, matrices and meshes in files */
+#include "fuge_files.h"   /* results on grids and meshes for ParaView */
 
 #endif

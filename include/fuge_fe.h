@@ -272,9 +272,9 @@ int fuge_bodies_create(fuge_bodies **bodies, char *message, size_t len);
 /* Free and set *bodies to NULL; NULL and *bodies == NULL are fine. */
 void fuge_bodies_free(fuge_bodies **bodies);
 
-/* Add a body by its stiffness matrix in compressed columns, as fuge_read_stiffness gives
- * them: column j holds row[p] and value[p] for column[j] <= p < column[j+1], rows in any
- * order, repeated entries are added; both triangles or one of them.  The arrays are copied;
+/* Add a body by its stiffness matrix in compressed columns: column j holds row[p] and
+ * value[p] for column[j] <= p < column[j+1], rows in any order, repeated entries are added;
+ * both triangles or one of them.  The arrays are copied;
  * their contents are checked by fuge_bodies_join and fuge_bodies_solve.
  *   body  out  number of the body: 0 for the first one, and so on; may be NULL
  * FUGE_ERR_SIZE, FUGE_ERR_MEMORY. */

@@ -22,12 +22,11 @@ HOLDS = {
     "punch": "smooth and round punches, no grid",
     "stress": "stresses inside, the largest",
     "fe": "stiffness, pairs, bodies",
-    "files": "surfaces, matrices, meshes, results",
+    "files": "results for ParaView",
     "facade": "the module fuge",
     "f77": "FORTRAN 77",
     "mpi": "surfaces over MPI",
     "sparse": "CHOLMOD",
-    "program": "the program fuge",
 }
 SEVEN = {"core", "area", "layers", "punch", "stress", "fe", "files"}
 

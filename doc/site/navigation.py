@@ -17,8 +17,7 @@ TOPICS = {
     "core/engines": "Load path and history", "core/halfplane": "Half-plane", "core": "Core",
     "area/hertz": "Hertz", "area": "Half-space", "punch/smooth": "Smooth punch", "punch/round": "Round punch",
     "stress": "Stresses", "fe/condensation": "Finite elements", "sparse": "Sparse stiffness",
-    "fe/bodies": "Several bodies", "fe": "Pairs of surfaces", "files/meshes": "Meshes and their files",
-    "files/stiffness": "Meshes and their files", "files": "Other files", "mpi": "Surfaces over MPI",
+    "fe/bodies": "Several bodies", "fe": "Pairs of surfaces", "files": "Results for ParaView", "mpi": "Surfaces over MPI",
 }
 # The modules that give the names of topics with a library of their own.
 LIBRARIES = {"Sparse stiffness": "fuge_sparse", "Surfaces over MPI": "fuge_mpi"}

@@ -26,7 +26,7 @@ from sources import FACADES, described, opening_sentence, public_modules, public
 FIRST = ("fuge_solver_type", "fuge_problem_type", "fuge_options_type", "fuge_status", "fuge_matrix_operator",
          "fuge_halfplane_influence", "fuge_halfplane_fft", "fuge_halfspace_influence", "fuge_halfspace_fft",
          "fuge_hertz_theory", "fuge_edge_refinement", "fuge_certificate",
-         "fuge_contact_path", "fuge_path_type", "fuge_elastic_moduli", "fuge_profile_files", "fuge_profile_sampling")
+         "fuge_contact_path", "fuge_path_type", "fuge_elastic_moduli")
 # A name of fuge as code that is no link yet.
 NAME = re.compile(r"(?<!\[)`(fuge_\w+)`(?!\])")
 # A constant of fuge.

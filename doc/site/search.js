@@ -12,7 +12,7 @@
   const MOST = 40
   const REMEMBERED = 'fuge language'
   // In the order in which they are shown: those before the references are read first.
-  const GROUPS = ['Tutorials and how-to', 'Python', 'C', 'Fortran', 'FORTRAN 77', 'Files and the program',
+  const GROUPS = ['Tutorials and how-to', 'Python', 'C', 'Fortran', 'FORTRAN 77', 'Files and the command',
     'Theory and performance', 'Examples and the project']
   const REFERENCES = ['Python', 'C', 'Fortran', 'FORTRAN 77']
   const EXACT = 'exact'

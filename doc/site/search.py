@@ -20,7 +20,7 @@ REFERENCES = (("Fortran", r"(?:type|proc|module|interface)/|page/fortran\.html$"
 OTHERS = (("Fortran", r"page/(?:tutorial_fortran|file_\w+_f90)\.html$"), ("C", r"page/(?:tutorial_c|file_\w+_[ch])\.html$"),
           ("Python", r"page/(?:tutorial_python|file_\w+_py)\.html$"), ("FORTRAN 77", r"page/file_\w+_f\.html$"))
 # The groups of the results, as in search.js, for those of the tree of pages; all others are tutorials and how-to.
-GROUPS = {"Reference": "Files and the program", "Theory": "Theory and performance",
+GROUPS = {"Reference": "Files and the command", "Theory": "Theory and performance",
           "Performance": "Theory and performance", "Examples": "Examples and the project",
           "The project": "Examples and the project", "Other files": "Examples and the project"}
 GUIDES = "Tutorials and how-to"

@@ -1,11 +1,9 @@
 !> A rough profile pressed on an elastic half-plane: real contact length over load.
 !>
-!>     rough [cells [profile [folder for its tables]]]
+!>     rough [cells [folder for its tables]]
 !>
-!> `cells` is a power of two, 2**18 unless given; `profile` is a file with x and z on each line. Without it, or
-!> with -, a self-affine profile is generated. The surfaces are periodic. Lengths count in
-!> the unit of the profile, or in periods, and pressures in E*: mean pressure and contact
-!> do not depend on its value. While the contact is small its length is proportional
+!> `cells` is a power of two, 2**18 unless given. The profile is self-affine and periodic. Lengths count in periods, and
+!> pressures in E*: mean pressure and contact do not depend on its value. While the contact is small its length is proportional
 !> to the load, A/A_0 = kappa p/(E* h') with the rms slope h'.
 !> For the pictures it writes rough_load.csv and rough_window.csv.
 program rough
@@ -14,7 +12,7 @@ program rough
   use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_info, fuge_problem, fuge_solution, fuge_solver, &
     FUGE_PERIODIC
-  use rough_profile, only: measured_profile, rms_slope, self_affine_profile
+  use rough_profile, only: rms_slope, self_affine_profile
   use rough_progress, only: ticker
   implicit none
 
@@ -33,13 +31,13 @@ contains
     type(fuge_problem) :: problem
     type(fuge_info) :: info
     real(dp), allocatable :: height(:)
-    real(dp) :: period, spacing
+    real(dp) :: spacing
     integer :: cells
 
     call read_arguments(cells)
     allocate (height(cells))
-    call make_profile(height, period)
-    spacing = period/real(cells, dp)
+    call self_affine_profile(cells, height)
+    spacing = 1.0_dp/real(cells, dp)
     print '(i0,a,f7.4)', cells, ' cells, rms slope', rms_slope(height, spacing)
 
     call operator%set(cells, spacing, 1.0_dp, info, boundary=FUGE_PERIODIC)
@@ -59,32 +57,9 @@ contains
     if (command_argument_count() < 1) return
     call get_command_argument(1, argument)
     read (argument, *, iostat=status) cells
-    if (status /= 0) error stop 'usage: rough [cells [profile [folder]]]'
+    if (status /= 0) error stop 'usage: rough [cells [folder]]'
     if (cells < 1024 .or. popcnt(cells) /= 1) error stop 'cells has to be a power of two, 1024 or more'
   end subroutine read_arguments
-
-  !> Is there a file of a profile?
-  logical function is_measured()
-    character(len=1024) :: path
-
-    call get_command_argument(2, path)
-    is_measured = path /= '' .and. path /= '-'
-  end function is_measured
-
-  subroutine make_profile(height, period)
-    real(dp), intent(out) :: height(:), period
-    character(len=1024) :: path
-    type(fuge_info) :: info
-
-    if (is_measured()) then
-      call get_command_argument(2, path)
-      call measured_profile(trim(path), size(height), height, period, info)
-      if (info%failed()) call give_up(info)
-    else
-      period = 1.0_dp
-      call self_affine_profile(size(height), height)
-    end if
-  end subroutine make_profile
 
   !> Solve from large to small loads; each solve starts from the forces of the one before.
   subroutine all_loads(operator, problem, height, spacing)
@@ -100,7 +75,7 @@ contains
     integer :: file, k
 
     print '(a)', '   p/E*      contact    kappa    approach   residual  products   time [s]'
-    call create_file('rough_load.csv', 3, file)
+    call create_file('rough_load.csv', 2, file)
     write (file, '(a)') 'pressure,contact,kappa,approach,residual,products,preconditionings,seconds,rms_slope'
     do k = 0, DECADES*LOADS_A_DECADE
       pressure = LARGEST*10.0_dp**(-real(k, dp)/real(LOADS_A_DECADE, dp))
@@ -115,8 +90,7 @@ contains
       if (pressure > 0.99_dp*SHOWN) call check_contact(info%contacts, pressure, height, spacing, theory)
     end do
     close (file)
-    ! A measured profile may be anything.
-    if (.not. is_measured()) call theory%give('contact lengths near Persson''s theory')
+    call theory%give('contact lengths near Persson''s theory')
   end subroutine all_loads
 
   subroutine write_load(file, pressure, slope, solution, info, seconds)
@@ -155,7 +129,7 @@ contains
     middle = maxloc(solution%force, dim=1)
     first = max(1, middle - size(height)/(2*WINDOW))
     last = min(size(height), middle + size(height)/(2*WINDOW))
-    call create_file('rough_window.csv', 3, file)
+    call create_file('rough_window.csv', 2, file)
     write (file, '(a)') 'x,profile,surface,pressure'
     do k = first, last
       write (file, '(3(es16.8,","),es16.8)') (real(k, dp) - 0.5_dp)*spacing, height(k), height(k) + solution%gap(k), &

@@ -1,11 +1,11 @@
-!> Rough profiles for the example `rough`: generated, or measured and read from a file.
+!> Generated rough profiles for the example `rough`.
 module rough_profile
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge, only: dp => fuge_dp, fuge_info, fuge_level_profile, fuge_read_profile, fuge_sample_profile, FUGE_LEVEL_LINE
+  use fuge, only: dp => fuge_dp
   implicit none
   private
 
-  public :: self_affine_profile, measured_profile, rms_slope
+  public :: self_affine_profile, rms_slope
 
   !> The spectrum of a generated profile. Of all its properties the real contact depends mainly on
   !> the mean square slope.
@@ -76,32 +76,6 @@ contains
     wave(:half - 1) = even + odd
     wave(half:) = even - odd
   end subroutine add_up
-
-  !> Heights of `n` cells from a file of x and z, less the least-squares line; `period` in the unit of x.
-  !>
-  !> The profile and its mirror image form the period, so that there is no step where it repeats.
-  subroutine measured_profile(path, n, height, period, info)
-    character(len=*), intent(in) :: path
-    integer, intent(in) :: n
-    real(dp), intent(out) :: height(n), period
-    type(fuge_info), intent(out) :: info
-    real(dp), allocatable :: x(:), z(:), centre(:)
-    real(dp) :: part
-    integer :: k, points
-
-    period = 0.0_dp
-    call fuge_read_profile(path, x, z, info)
-    if (.not. info%failed()) call fuge_level_profile(x, z, FUGE_LEVEL_LINE, info)
-    if (info%failed()) return
-    points = size(x)
-    period = 2.0_dp*(x(points) - x(1))
-    allocate (centre(n))
-    do k = 1, n
-      part = (real(k, dp) - 0.5_dp)/real(n, dp)
-      centre(k) = x(1) + period*min(part, 1.0_dp - part)
-    end do
-    call fuge_sample_profile(x, z, centre, height, info)
-  end subroutine measured_profile
 
   !> Root mean square of the slope from cell to cell, once round the period.
   pure function rms_slope(height, spacing) result(slope)

@@ -36,7 +36,7 @@ static void check_outputs(void) {
 /* ---- calls that are refused ---------------------------------------------- */
 
 static const double SKEW[4] = {0.2, 0.1, 0.15, 0.2}, HOLE[4] = {0.2, NAN, 0.1, 0.2};
-static const double X[2] = {0.5, 1.5}, FALLING[2] = {1.5, 0.5}, WIDTH[2] = {1.0, 1.0}, NO_WIDTH[2] = {1.0, 0.0};
+static const double X[2] = {0.5, 1.5}, WIDTH[2] = {1.0, 1.0}, NO_WIDTH[2] = {1.0, 0.0};
 static const double UNEQUAL[2] = {1.0, 2.0}, ONES[2] = {1.0, 1.0}, ONE_NEGATIVE[2] = {1.0, -1.0};
 
 static int apply(int n, const double *f, double *u, void *user) {
@@ -72,26 +72,6 @@ static int combined_modulus(char *message, size_t len) {
 
 static int displacement_shares(char *message, size_t len) {
   return fuge_displacement_shares(INFINITY, INFINITY, reals, reals + 1, message, len);
-}
-
-static int read_profile(char *message, size_t len) {
-  return fuge_read_profile("no_such_folder/profile.txt", 4, reals, reals + 4, ints, message, len);
-}
-
-static int sample_falling(char *message, size_t len) {
-  return fuge_sample_profile(2, FALLING, ONES, 1, X, reals, message, len);
-}
-
-static int sample_no_points(char *message, size_t len) {
-  return fuge_sample_profile(-5, X, ONES, 1, X, reals, message, len);
-}
-
-static int level_one_point(char *message, size_t len) {
-  return fuge_level_profile(1, X, reals, FUGE_LEVEL_MEAN, message, len);
-}
-
-static int level_unknown(char *message, size_t len) {
-  return fuge_level_profile(2, X, reals, 9, message, len);
 }
 
 static int matrix_width(char *message, size_t len) {
@@ -163,30 +143,10 @@ static int rigid_modes_many(char *message, size_t len) {
   return fuge_rigid_modes(3, 1000000000, X, reals, message, len);
 }
 
-static int read_matrix(char *message, size_t len) {
-  return fuge_read_matrix("no_such_folder/matrix.mtx", 2, 2, reals, ints, ints + 1, message, len);
-}
-
-static int read_sparse(char *message, size_t len) {
-  return fuge_read_sparse("no_such_folder/matrix.mtx", 2, -1, ints, ints + 4, reals, ints + 8, ints + 9, ints + 10,
-                          message, len);
-}
-
-static int write_matrix(char *message, size_t len) {
-  return fuge_write_matrix("api_messages_scratch.mtx", 2, 2, HOLE, 2, 0, message, len);
-}
-
-static int write_sparse(char *message, size_t len) {
-  const int column[3] = {0, 1, 2}, row[2] = {0, 2};
-  return fuge_write_sparse("api_messages_scratch.mtx", 2, 2, column, row, ONES, 0, message, len);
-}
-
-static int write_too_many(char *message, size_t len) {
-  return fuge_write_sparse("api_messages_scratch.mtx", 2, INT_MAX, ints, ints, reals, 0, message, len);
-}
-
 static int path_of_two_lines(char *message, size_t len) {
-  return fuge_read_matrix("no_such\n%s'folder/\xc3\xa4", 2, 2, reals, ints, ints + 1, message, len);
+  const char *const name = "p";
+  const double *const result = X;
+  return fuge_write_results("no_such\n%s'folder/\xc3\xa4", 1, 1, ONES, NULL, 1, &name, &result, message, len);
 }
 
 static int smooth_interval(char *message, size_t len) {
@@ -240,11 +200,6 @@ static const refusal REFUSALS[] = {
   {plane_modulus, FUGE_ERR_MODULUS, "young = -1.0"},
   {combined_modulus, FUGE_ERR_MODULUS, "e2 = 0.0"},
   {displacement_shares, FUGE_ERR_MODULUS, "both"},
-  {read_profile, FUGE_ERR_FILE, "\"no_such_folder/profile.txt\" cannot be opened"},
-  {sample_falling, FUGE_ERR_WIDTH, "x(1) = 0.500000 does not exceed x(0) = 1.5"},
-  {sample_no_points, FUGE_ERR_SIZE, "n = -5, the number of points of the profile"},
-  {level_one_point, FUGE_ERR_SIZE, "n = 1, the number of points of the profile"},
-  {level_unknown, FUGE_ERR_OPTION, "form = 9"},
   {matrix_width, FUGE_ERR_WIDTH, "width(1) = 0.0"},
   {matrix_unequal, FUGE_ERR_GRID, "width(1) = 2.000000 differs from width(0) by 1.0"},
   {edges_grid, FUGE_ERR_GRID, "cell 1 at x = 1.5"},
@@ -263,11 +218,6 @@ static const refusal REFUSALS[] = {
   {rigid_modes, FUGE_ERR_SIZE, "dimensions = 4"},
   {rigid_modes_hole, FUGE_ERR_NOT_FINITE, "position(1,0) = NaN"},
   {rigid_modes_many, FUGE_ERR_SIZE, "nodes = 1000000000 have more than 2147483647 degrees of freedom"},
-  {read_matrix, FUGE_ERR_FILE, "\"no_such_folder/matrix.mtx\" cannot be opened"},
-  {read_sparse, FUGE_ERR_SIZE, "entry_capacity = -1"},
-  {write_matrix, FUGE_ERR_NOT_FINITE, "entry (1, 0) = NaN"},
-  {write_sparse, FUGE_ERR_SIZE, "row(1) = 2 is outside 0 .. 1"},
-  {write_too_many, FUGE_ERR_SIZE, "columns = 2147483647 is too large"},
   {path_of_two_lines, FUGE_ERR_FILE, "\"no_such?%s'folder/\xc3\xa4\" cannot be opened"},
   {smooth_interval, FUGE_ERR_WIDTH, "lower = 1.0"},
   {smooth_report, FUGE_ERR_POINTER, "report is NULL"},

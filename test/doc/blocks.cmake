@@ -1,9 +1,8 @@
 # Code in the pages of the manual becomes programs that are tests.
 #
-# fuge_page_programs(page [file ..]): each block ```fortran that begins with a `program`, in fixed
+# fuge_page_programs(page): each block ```fortran that begins with a `program`, in fixed
 # form with a `PROGRAM`, or with a `module` for the program below it, and each block ```c with a
-# `main`, is compiled; the block ```text after it is what the program has to print. The programs run
-# in a folder with copies of the files.
+# `main`, is compiled; the block ```text after it is what the program has to print.
 # fuge_page_calls(page): each block ```fortran that begins with `use fuge`, and each block ```c
 # that begins with `#include <fuge.h>`, is a piece of a program; where a comment says
 # `name = value, value    name = value`, these are the values that it has to find.
@@ -69,9 +68,6 @@ function(fuge_page_programs page)
   get_filename_component(stem "${page}" NAME_WE)
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/${stem}")
   file(MAKE_DIRECTORY "${folder}")
-  foreach(file IN LISTS ARGN)
-    configure_file("${file}" "${folder}" COPYONLY)
-  endforeach()
   set(name "")
   set(fortran)
   set(count 0)

@@ -1,5 +1,5 @@
 # fpm projects in Fortran and C: one links the copy in PREFIX; the other one, without PREFIX, depends on the
-# sources in SOURCE_DIR. After the latter also the project src/program, which depends on them too.
+# sources in SOURCE_DIR.
 # ctest sets PREFIX and PKG_CONFIG, or SOURCE_DIR, MAKE_PROGRAM and BUILT; LIBDIR, KIND, SCRATCH, FPM and
 # Fortran_COMPILER.
 cmake_minimum_required(VERSION 3.20)
@@ -42,22 +42,4 @@ string(REGEX MATCHALL "${answer}" answers "${output}")
 list(LENGTH answers count)
 if(NOT count EQUAL 2)
   message(FATAL_ERROR "${count} programs by fpm have answered, not 2: ${output}")
-endif()
-
-if(NOT PREFIX)
-  # The program, in a copy of its folder that lies among the others as in the sources, where fpm would leave its build.
-  set(tree "${SCRATCH}_program")
-  file(REMOVE_RECURSE "${tree}")
-  file(COPY "${sources}/src/program" DESTINATION "${tree}/src" PATTERN build EXCLUDE)
-  file(GLOB others RELATIVE "${sources}" "${sources}/fpm.toml" "${sources}/examples" "${sources}/src/*")
-  list(REMOVE_ITEM others src/program)
-  foreach(other IN LISTS others)
-    file(CREATE_LINK "${sources}/${other}" "${tree}/${other}" SYMBOLIC)
-  endforeach()
-  run("the program by fpm" ${compiling} "${CMAKE_COMMAND}" -E chdir "${tree}/src/program"
-    "${FPM}" run --compiler "${Fortran_COMPILER}" ${options} -- --version)
-  if(NOT output MATCHES "fuge [0-9]+[.][0-9]")
-    message(FATAL_ERROR "the program by fpm does not say its version: ${output}")
-  endif()
-  file(REMOVE_RECURSE "${tree}")
 endif()

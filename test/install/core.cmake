@@ -73,7 +73,7 @@ endforeach()
 # The benchmark needs what the tests need, without them.
 if(WITH_FFTW)
   run("configure the benchmark" "${CMAKE_COMMAND}" -S "${SOURCE_DIR}" -B "${SCRATCH}/bench" ${settings}
-    -DFUGE_BUILD_BENCH=ON -DFUGE_BUILD_TESTS=OFF -DFUGE_BUILD_EXAMPLES=OFF -DFUGE_BUILD_PROGRAM=OFF)
+    -DFUGE_BUILD_BENCH=ON -DFUGE_BUILD_TESTS=OFF -DFUGE_BUILD_EXAMPLES=OFF)
 endif()
 # A component that does not exist is refused when it is configured.
 execute_process(COMMAND "${CMAKE_COMMAND}" -S "${SOURCE_DIR}" -B "${SCRATCH}/nonsense" ${settings}

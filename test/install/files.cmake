@@ -1,6 +1,6 @@
-# Headers, module files, documents and the program are installed, each by its component.
+# Headers, module files, and documents are installed, each by its component.
 # ctest sets PREFIX, BUILD_DIR, SOURCE_DIR, SCRATCH, CONFIG, LIBDIR, DOCDIR, MANDIR, INCLUDEDIR, MODULEDIR,
-# BINDIR, PROGRAM and COMPILER_ID.
+# BINDIR and COMPILER_ID.
 cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
@@ -36,9 +36,6 @@ foreach(pattern IN ITEMS doc/*.md doc/*.png doc/*.svg README.md LICENSE CHANGELO
   expect_copies("${SOURCE_DIR}" ${pattern} "${PREFIX}/${DOCDIR}")
 endforeach()
 expect_copies("${SOURCE_DIR}/doc/man" *.3 "${PREFIX}/${MANDIR}/man3")
-if(PROGRAM)
-  expect_copies("${SOURCE_DIR}/doc/man" *.1 "${PREFIX}/${MANDIR}/man1")
-endif()
 if(NOT MODULEDIR MATCHES "[0-9]+\\.[0-9]+")
   message(SEND_ERROR "the folder of the module files does not name the compiler's version: ${MODULEDIR}")
 endif()

@@ -1,5 +1,5 @@
 # Make the Debian packages, install them below SCRATCH, and use them from C, Fortran and the shell.
-# ctest sets BUILD_DIR, CONFIG, CPACK, DPKG, PKG_CONFIG, SCRATCH, LIBDIR, INSTALL_TESTS, DATA, VERSION, PROGRAM, SPARSE,
+# ctest sets BUILD_DIR, CONFIG, CPACK, DPKG, PKG_CONFIG, SCRATCH, LIBDIR, INSTALL_TESTS, VERSION, SPARSE,
 # MPI, FFTW, GENERATOR, MAKE_PROGRAM, C_COMPILER and Fortran_COMPILER.
 cmake_minimum_required(VERSION 3.20)
 include("${INSTALL_TESTS}/run.cmake")
@@ -10,9 +10,6 @@ run("cpack" "${CPACK}" -G DEB -C "${CONFIG}" --config "${BUILD_DIR}/CPackConfig.
 
 string(REGEX MATCH "^[0-9]+\\.[0-9]+" soversion "${VERSION}")
 set(names libfuge${soversion} libfuge-dev fuge-doc)
-if(PROGRAM)
-  list(APPEND names fuge)
-endif()
 if(SPARSE)
   list(APPEND names libfuge-sparse${soversion} libfuge-sparse-dev)
 endif()
@@ -57,9 +54,6 @@ expect_field(libfuge${soversion} Depends "libc6 \\(>=")
 expect_field(libfuge${soversion} Section "^libs\n$")
 expect_field(libfuge-dev Depends "libfuge${soversion} \\(= ${VERSION}\\)")
 expect_field(fuge-doc Architecture "^all\n$")
-if(PROGRAM)
-  expect_field(fuge Depends "libfuge${soversion} \\(= ${VERSION}\\)")
-endif()
 
 # dpkg refuses a file that is in two packages. The scratch folder has neither their dependencies nor a shell for the
 # scripts that call ldconfig, so they are unpacked only.
@@ -114,19 +108,6 @@ if(PKG_CONFIG)
     run("${source}: compile" "${compiler}" "${INSTALL_TESTS}/${source}" -o "${SCRATCH}/${name}_by_pkg_config" ${flags})
     expect_answer_in("${root}" "${source} by pkg-config, Debian packages" "${SCRATCH}/${name}_by_pkg_config")
   endforeach()
-endif()
-
-# The program and its page.
-if(PROGRAM)
-  run("fuge" "${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${root}/${LIBDIR}" "${root}/usr/bin/fuge"
-    --alpha "${DATA}/two_nodes_alpha.mtx" --gap "${DATA}/two_nodes_gap.mtx" --load 2)
-  if(NOT output MATCHES "\n1, 2\\.0+E\\+000, 0\\.0+E\\+000,contact\n")
-    message(FATAL_ERROR "the program printed the wrong table: ${output}")
-  endif()
-  run("man page" gzip -dc "${root}/usr/share/man/man1/fuge.1.gz")
-  if(NOT output MATCHES "\\.TH FUGE 1")
-    message(SEND_ERROR "fuge.1.gz is no man page")
-  endif()
 endif()
 
 message(STATUS "${number} packages: ${names}")

@@ -26,13 +26,6 @@ plant(components.txt "early : late\nlate :\n" "components.txt lets early use lat
 plant(components.txt "district :\n" "components.txt names district, which is not a folder\n")
 plant(quarter/fuge_planted_five.f90 "module fuge_planted_five\nend module fuge_planted_five\n"
   "quarter belongs to no component of components.txt\n")
-# The program uses the public modules only.
-plant(program/text/planted_six.f90
-  "module planted_six\n  use fuge_text_reader, only: a\nend module planted_six\n"
-  "program/text/planted_six.f90 uses fuge_text_reader: program/text may not use files/text\n")
-plant(program/text/planted_fourteen.f90
-  "module planted_fourteen\n  use fuge_status, only: fuge_info\nend module planted_fourteen\n"
-  "program/text/planted_fourteen.f90 uses fuge_status: program/text may not use core/base\n")
 # After a semicolon nothing is lost, and the facades are for callers.
 plant(core/base/fuge_planted_seven.f90
   "module fuge_planted_seven\n  implicit none; private\n  use fuge_core\nend module fuge_planted_seven\n"

@@ -1,6 +1,6 @@
 # A test for each module: cmake -D ROOT=. -P untested.cmake
 #
-# Every src/<folder>/[fuge_]X.f90, but for program/, mpi/ and variants/, has ROOT/test/unit/<folder>/test_X.pf, or a line `module: reason` in
+# Every src/<folder>/[fuge_]X.f90, but for mpi/ and variants/, has ROOT/test/unit/<folder>/test_X.pf, or a line `module: reason` in
 # ROOT/test/unit/untested.txt; files that a reason names exist. Every test_X.pf outside of topics/ has its module.
 cmake_minimum_required(VERSION 3.20)
 
@@ -40,7 +40,7 @@ set(tests)
 set(modules)
 file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/src/*.f90")
 # The tests of the program and of ranks are programs of their own.
-list(FILTER sources EXCLUDE REGEX "^src/(program|mpi|variants)/")
+list(FILTER sources EXCLUDE REGEX "^src/(mpi|variants)/")
 foreach(source IN LISTS sources)
   get_filename_component(folder "${source}" DIRECTORY)
   get_filename_component(module "${source}" NAME_WE)

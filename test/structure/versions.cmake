@@ -28,7 +28,6 @@ foreach(manifest IN LISTS manifests)
 endforeach()
 expect_version(src/core/base/fuge_version_number.f90 " FUGE_VERSION = ")
 expect_version(CITATION.cff "^version: ")
-expect_version(doc/man/fuge.1 "^[.]TH ")
 expect_version(doc/man/fuge.3 "^[.]TH ")
 expect_version(doc/install.md "fuge-[0-9.]+-py3")
 

@@ -3,19 +3,22 @@ module scratch_files
   implicit none
   private
 
-  public :: delete_scratch, write_scratch
+  public :: delete_scratch, scratch_content
 
 contains
 
-  !> Write these bytes; an existing file is replaced.
-  subroutine write_scratch(path, content)
-    character(len=*), intent(in) :: path, content
-    integer :: unit
+  !> All bytes of a file.
+  function scratch_content(path) result(content)
+    character(len=*), intent(in) :: path
+    character(len=:), allocatable :: content
+    integer :: bytes, unit
 
-    open (newunit=unit, file=path, status='replace', access='stream', form='unformatted', action='write')
-    write (unit) content
+    open (newunit=unit, file=path, status='old', access='stream', form='unformatted', action='read')
+    inquire (unit=unit, size=bytes)
+    allocate (character(len=bytes) :: content)
+    read (unit) content
     close (unit)
-  end subroutine write_scratch
+  end function scratch_content
 
   subroutine delete_scratch(path)
     character(len=*), intent(in) :: path

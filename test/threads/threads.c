@@ -1,5 +1,5 @@
 /* Solvers in several threads at once: every engine, with operators of their own and shared ones, the paths,
- * profiles and refusals.  All answers and messages must be those of a run alone, bit for bit.
+ * files and refusals.  All answers and messages must be those of a run alone, bit for bit.
  *
  * The threads go first, so that whatever is prepared at a first call is prepared by several at once.
  * `threads_pthreads rounds` sets how often each thread does all of it. */
@@ -23,7 +23,6 @@ typedef struct {
 typedef struct {
   double alpha[N * N];
   fuge_operator *dense, *cells, *area, *springs;
-  char path[1024];
 } ground;
 static ground shared;
 
@@ -133,15 +132,17 @@ static void follow(record *r, int number) {
   fuge_solver_free(&s);
 }
 
-static void read_profile(record *r, int number) {
-  double x[8], z[8];
-  int count = 0;
-  char message[256] = "", missing[64];
-  expect(r, fuge_read_profile(shared.path, 8, x, z, &count, message, sizeof message), FUGE_DONE);
-  expect(r, fuge_level_profile(count, x, z, FUGE_LEVEL_LINE, message, sizeof message), FUGE_DONE);
-  put(r, z, count);
-  snprintf(missing, sizeof missing, "there_is_no_profile_%d.txt", number);
-  expect(r, fuge_read_profile(missing, 8, x, z, &count, message, sizeof message), FUGE_ERR_FILE);
+/* Files have a lock of their own. */
+static void write_grid(record *r, int number) {
+  const double spacing[2] = {1.0, 1.0}, values[2] = {number, 0.5};
+  const double *const results[1] = {values};
+  const char *const names[1] = {"p"};
+  char message[256] = "", path[64];
+  snprintf(path, sizeof path, "threads_scratch_%d.vti", number);
+  expect(r, fuge_write_results(path, 2, 1, spacing, NULL, 1, names, results, message, sizeof message), FUGE_DONE);
+  remove(path);
+  snprintf(path, sizeof path, "there_is_no_folder_%d/p.vti", number);
+  expect(r, fuge_write_results(path, 2, 1, spacing, NULL, 1, names, results, message, sizeof message), FUGE_ERR_FILE);
   put_text(r, message);
 }
 
@@ -185,7 +186,7 @@ static void part(record *r, int which, int number) {
     case 3: solve(r, shared.cells, CELLS, FUGE_ITERATIVE, number); break;
     case 4: solve(r, shared.springs, N, FUGE_ITERATIVE, number); break;
     case 5: follow(r, number); break;
-    case 6: read_profile(r, number); break;
+    case 6: write_grid(r, number); break;
     case 7: solve(r, shared.area, CELLS, FUGE_ITERATIVE, number); break;
     case 8: solve_own_area(r, number); break;
     default: refuse(r, number);
@@ -225,7 +226,6 @@ static void *work(void *data) {
 static void make_ground(void) {
   static double flexibility = 1.0;
   double x[N], width[N];
-  FILE *file;
   for (int k = 0; k < N; k++) {
     x[k] = k;
     width[k] = 1.0;
@@ -235,12 +235,6 @@ static void make_ground(void) {
   CHECK_DONE(fuge_operator_halfplane(CELLS, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &shared.cells, NULL, 0));
   CHECK_DONE(fuge_operator_halfspace(SIDE, SIDE, 1.0, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &shared.area, NULL, 0));
   CHECK_DONE(fuge_operator_callback(N, spring, &flexibility, &shared.springs, NULL, 0));
-  snprintf(shared.path, sizeof shared.path, "threads_profile.txt");
-  file = fopen(shared.path, "w");
-  CHECK(file != NULL);
-  if (!file) return;
-  fprintf(file, "x z\n0 1\n1 3\n2 2\n4 5\n");
-  fclose(file);
 }
 
 static void free_ground(void) {
@@ -248,7 +242,6 @@ static void free_ground(void) {
   fuge_operator_free(&shared.springs);
   fuge_operator_free(&shared.cells);
   fuge_operator_free(&shared.area);
-  remove(shared.path);
 }
 
 static void run_all(job *jobs, void *(*function)(void *)) {

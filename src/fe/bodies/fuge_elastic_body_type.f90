@@ -17,7 +17,7 @@ module fuge_elastic_body_type
   !> An elastic body: its stiffness matrix, supports and load. Degrees of freedom count from 1 in each body. Set
   !> components by name, since later versions may add some.
   type, public :: fuge_elastic_body
-    !> Stiffness matrix in compressed columns, as fuge_read_stiffness returns it: column j holds the entries
+    !> Stiffness matrix in compressed columns: column j holds the entries
     !> column(j) .. column(j + 1) - 1 of `row` and `value`. Repeated entries are added; both triangles, or one of them.
     integer, allocatable :: column(:), row(:)
     !> The entries, force per displacement.

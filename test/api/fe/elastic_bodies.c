@@ -287,50 +287,10 @@ static void test_refusals(void) {
   fuge_bodies_free(&bodies);
 }
 
-/* Two squares side by side; the matrix has no rows of node 10, which is held. */
-static void test_mesh_rows(void) {
-  const char *path = "api_elastic_bodies.inp";
-  const int node[9] = {20, 20, 30, 30, 40, 40, 50, 50, 60}, direction[9] = {1, 2, 1, 2, 1, 2, 1, 2, 2};
-  int dof[12], count = -1;
-  char message[256];
-  fuge_mesh *mesh = NULL;
-  FILE *file = fopen(path, "w");
-
-  if (file == NULL) {
-    CHECK(file != NULL);
-    return;
-  }
-  fputs("*NODE\n10,0,0\n20,1,0\n30,2,0\n40,0,1\n50,1,1\n60,2,1\n*ELEMENT, TYPE=CPE4, ELSET=ALL\n1,10,20,50,40\n"
-        "2,20,30,60,50\n*NSET, NSET=ENDS\n60,10,40\n*SURFACE, NAME=TOP\nALL, S3\n", file);
-  fclose(file);
-  CHECK_DONE(fuge_read_mesh(path, &mesh, message, sizeof message));
-  remove(path);
-  CHECK_DONE(fuge_mesh_get_surface_dof(mesh, "top", 2, 9, node, direction, dof, message, sizeof message));
-  const int expected[12] = {-1, -1, 0, 1, 2, 3, 4, 5, 6, 7, -1, 8};
-  for (int k = 0; k < 12; k++) CHECK_INT(dof[k], expected[k]);
-  CHECK_DONE(fuge_mesh_get_set_dof(mesh, "ENDS", 2, 9, node, direction, 12, dof, &count, message, sizeof message));
-  CHECK_INT(count, 2);
-  CHECK_INT(dof[0], 8);
-  CHECK_INT(dof[1], 5);
-  CHECK_DONE(fuge_mesh_get_set_dof(mesh, "ENDS", 1, 9, node, direction, 0, NULL, &count, message, sizeof message));
-  CHECK_INT(count, 1);
-  CHECK_STATUS(fuge_mesh_get_surface_dof(mesh, "TOP", 3, 9, node, direction, dof, message, sizeof message),
-               FUGE_ERR_ELEMENT);
-  CHECK_STATUS(fuge_mesh_get_surface_dof(mesh, "SIDE", 2, 9, node, direction, dof, message, sizeof message),
-               FUGE_ERR_OPTION);
-  CHECK_STATUS(fuge_mesh_get_set_dof(mesh, "ENDS", 7, 9, node, direction, 0, NULL, &count, message, sizeof message),
-               FUGE_ERR_OPTION);
-  CHECK_STATUS(fuge_mesh_get_set_dof(mesh, "ENDS", 1, 0, node, direction, 0, NULL, &count, message, sizeof message),
-               FUGE_ERR_SIZE);
-  CHECK_INT(count, 1);
-  fuge_mesh_free(&mesh);
-}
-
 int main(void) {
   test_solve();
   test_rigid_ground();
   test_bodies_as_one();
   test_refusals();
-  test_mesh_rows();
   return check_summary();
 }

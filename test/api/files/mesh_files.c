@@ -1,84 +1,7 @@
-/* Section "mesh files" of fuge_files.h. */
-#include "scratch.h"
+/* Section "meshes" of fuge_files.h. */
+#include "check.h"
 
-static const char *const NAME = "api_mesh_files_scratch.inp";
-
-static void test_mesh(void) {
-  fuge_mesh *mesh = NULL;
-  int nodes = -1, elements = -1, connections = -1, count = -1;
-  int node[4], element[1], first[2], connection[4], member[4], faces[16];
-  double position[12];
-  char message[256] = "old", type[17];
-  write_file(NAME, "*NODE\n10, 0., 0., 0.\n20, 1., 0., 0.\n30, 0., 1., 0.\n40, 0., 0., 1.\n"
-             "*ELEMENT, TYPE=c3d4, ELSET=Tet\n7, 10, 20, 30, 40\n*NSET, NSET=BASE\n10, 30, 20\n"
-             "*SURFACE, NAME=FOOT\nTET, S1\nTET, S3\n");
-  CHECK_MESSAGE(fuge_read_mesh(NAME, &mesh, message, sizeof message), FUGE_DONE, message, "");
-  CHECK(mesh != NULL);
-  if (mesh == NULL) return;
-  CHECK_DONE(fuge_mesh_get_sizes(mesh, &nodes, &elements, &connections));
-  CHECK(nodes == 4 && elements == 1 && connections == 4);
-  CHECK_DONE(fuge_mesh_get_nodes(mesh, node, position));
-  CHECK(node[0] == 10 && node[3] == 40);
-  CHECK_NEAR(position[3], 1.0, 0.0);
-  CHECK_NEAR(position[11], 1.0, 0.0);
-  CHECK_DONE(fuge_mesh_get_nodes(mesh, NULL, NULL));
-  CHECK_DONE(fuge_mesh_get_elements(mesh, element, first, connection));
-  CHECK(element[0] == 7 && first[0] == 0 && first[1] == 4 && connection[0] == 0 && connection[3] == 3);
-  CHECK_MESSAGE(fuge_mesh_get_type(mesh, 0, type, sizeof type), FUGE_DONE, type, "C3D4");
-  CHECK_STATUS(fuge_mesh_get_type(mesh, 1, type, sizeof type), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_mesh_get_type(mesh, -1, type, sizeof type), FUGE_ERR_SIZE);
-  member[2] = -9;
-  CHECK_DONE(fuge_mesh_get_node_set(mesh, "base", 2, member, &count, NULL, 0));
-  CHECK(count == 3 && member[0] == 0 && member[1] == 2 && member[2] == -9);
-  CHECK_DONE(fuge_mesh_get_element_set(mesh, "TET", 4, member, &count, NULL, 0));
-  CHECK(count == 1 && member[0] == 0);
-  CHECK_STATUS(fuge_mesh_get_element_set(mesh, "BASE", 4, member, &count, message, sizeof message), FUGE_ERR_OPTION);
-  CHECK_STRING(message, "the mesh has no set of elements \"BASE\", it has TET");
-  CHECK_DONE(fuge_mesh_get_faces(mesh, "foot", 0, NULL, &count, NULL, 0));
-  CHECK_INT(count, 2);
-  CHECK_DONE(fuge_mesh_get_faces(mesh, "foot", 2, faces, &count, NULL, 0));
-  CHECK(faces[0] == 0 && faces[1] == 2 && faces[2] == 1 && faces[3] == -1 && faces[7] == -1);
-  CHECK(faces[8] == 1 && faces[9] == 2 && faces[10] == 3 && faces[15] == -1);
-  CHECK_STATUS(fuge_mesh_get_faces(mesh, "TOP", 2, faces, &count, message, sizeof message), FUGE_ERR_OPTION);
-  CHECK_STRING(message, "the mesh has no surface \"TOP\", it has FOOT");
-  CHECK_DONE(fuge_mesh_get_set_counts(mesh, &nodes, &elements, &count));
-  CHECK(nodes == 1 && elements == 1 && count == 1);
-  CHECK_DONE(fuge_mesh_get_set_counts(mesh, NULL, NULL, NULL));
-  CHECK_MESSAGE(fuge_mesh_get_node_set_name(mesh, 0, message, sizeof message), FUGE_DONE, message, "BASE");
-  CHECK_MESSAGE(fuge_mesh_get_element_set_name(mesh, 0, message, sizeof message), FUGE_DONE, message, "TET");
-  CHECK_MESSAGE(fuge_mesh_get_surface_name(mesh, 0, message, sizeof message), FUGE_DONE, message, "FOOT");
-  CHECK_STATUS(fuge_mesh_get_surface_name(mesh, 1, message, sizeof message), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_mesh_get_node_set_name(mesh, -1, message, sizeof message), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_mesh_get_element_set_name(NULL, 0, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_mesh_get_set_counts(NULL, NULL, NULL, &count), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_mesh_get_faces(mesh, NULL, 2, faces, &count, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_mesh_get_faces(mesh, "TOP", 2, faces, NULL, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_mesh_get_faces(mesh, "TOP", -1, faces, &count, NULL, 0), FUGE_ERR_SIZE);
-  fuge_mesh_free(&mesh);
-  CHECK(mesh == NULL);
-  fuge_mesh_free(&mesh);
-  fuge_mesh_free(NULL);
-  remove(NAME);
-}
-
-static void test_refusals(void) {
-  fuge_mesh *mesh = NULL;
-  int count = -1;
-  char message[256] = "";
-  write_file(NAME, "*NODE\n1, 0., 0., 0.\n1, 0., 0., 0.\n");
-  CHECK_STATUS(fuge_read_mesh(NAME, &mesh, message, sizeof message), FUGE_ERR_FILE);
-  CHECK_STRING(message, "\"api_mesh_files_scratch.inp\", line 3: node 1 is defined a second time");
-  CHECK(mesh == NULL);
-  CHECK_STATUS(fuge_read_mesh(NULL, &mesh, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_read_mesh(NAME, NULL, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_mesh_get_sizes(NULL, &count, &count, &count), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_mesh_get_nodes(NULL, &count, NULL), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_mesh_get_elements(NULL, &count, NULL, NULL), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_mesh_get_type(NULL, 0, message, sizeof message), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_mesh_get_node_set(NULL, "A", 1, &count, &count, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_INT(count, -1);
-  remove(NAME);
-}
+static const char *const NAME = "api_mesh_files_scratch.vtu";
 
 /* The content of the file NAME; at most size bytes. */
 static size_t read_back(char *content, size_t size) {
@@ -118,28 +41,21 @@ static void test_write(void) {
   fuge_mesh *mesh = NULL, *joined = NULL, *none = NULL;
   const fuge_mesh *both[2];
   static char content[4000];
-  char message[256] = "old", type[17];
-  int count = 0, node[10], first[5], connection[14], nodes, cells;
+  char message[256] = "old";
   size_t bytes;
   for (int k = 0; k < 20; k++) u[k] = k + 0.25;
   CHECK_DONE(fuge_mesh_create(2, 5, position, 4, 2, element, 2, types, &mesh, message, sizeof message));
   CHECK_STRING(message, "");
   if (mesh == NULL) return;
-  CHECK_MESSAGE(fuge_mesh_get_type(mesh, 0, type, sizeof type), FUGE_DONE, type, "CPS4");
-  CHECK_STATUS(fuge_mesh_get_node_set(mesh, "A", 0, NULL, &count, NULL, 0), FUGE_ERR_OPTION);
   both[0] = mesh;
   both[1] = mesh;
   CHECK_DONE(fuge_mesh_join(2, both, &joined, message, sizeof message));
   if (joined == NULL) return;
-  CHECK_DONE(fuge_mesh_get_sizes(joined, &nodes, &cells, &count));
-  CHECK(nodes == 10 && cells == 4 && count == 14);
-  CHECK_DONE(fuge_mesh_get_nodes(joined, node, NULL));
-  CHECK(node[4] == 5 && node[5] == 1);
-  CHECK_DONE(fuge_mesh_get_elements(joined, NULL, first, connection));
-  CHECK(first[2] == 7 && first[4] == 14 && connection[7] == 5 && connection[12] == 9);
   CHECK_DONE(fuge_write_mesh(NAME, joined, 2, names, components, elements, fields, message, sizeof message));
   bytes = read_back(content, sizeof content);
   CHECK(bytes > 0 && bytes < sizeof content);
+  content[bytes < sizeof content ? bytes : 0] = '\0';
+  CHECK_CONTAINS(content, "NumberOfPoints=\"10\" NumberOfCells=\"4\"");
   CHECK_NEAR(number_at(content, bytes, 8), 0.25, 0.0);
   CHECK_NEAR(number_at(content, bytes, 16), 1.25, 0.0);
   CHECK_NEAR(number_at(content, bytes, 24), 0.0, 0.0);
@@ -181,6 +97,9 @@ static void test_write(void) {
   CHECK(none == NULL);
   fuge_mesh_free(&joined);
   fuge_mesh_free(&mesh);
+  CHECK(mesh == NULL);
+  fuge_mesh_free(&mesh);
+  fuge_mesh_free(NULL);
 }
 
 /* A full disk, where there is one: more than the library writes at a time, and less. */
@@ -204,8 +123,6 @@ static void test_full_disk(void) {
 }
 
 int main(void) {
-  test_mesh();
-  test_refusals();
   test_write();
   test_full_disk();
   return check_summary();

@@ -12,7 +12,6 @@ class Fuge(CMakePackage):
     version("0.1.0")
 
     variant("shared", default=True, description="Build shared libraries")
-    variant("program", default=True, description="Build the program fuge")
     variant("fftw", default=True, description="Half-planes and half-spaces by FFT (FFTW is under the GPL)")
     variant("sparse", default=True, description="Sparse stiffness matrices by CHOLMOD")
     variant("mpi", default=False, when="+fftw", description="Surfaces over MPI")
@@ -31,7 +30,6 @@ class Fuge(CMakePackage):
     def cmake_args(self):
         return [
             self.define_from_variant("BUILD_SHARED_LIBS", "shared"),
-            self.define_from_variant("FUGE_BUILD_PROGRAM", "program"),
             self.define_from_variant("FUGE_WITH_FFTW", "fftw"),
             self.define_from_variant("FUGE_SPARSE", "sparse"),
             self.define_from_variant("FUGE_MPI", "mpi"),
