@@ -21,10 +21,14 @@ LARGEST = 2.0**992
 _END_TOLERANCE = 1e-12
 
 
+def first_place(wrong: NDArray[np.bool_]) -> list[tuple[int, ...]]:
+    """The indices of the first element that is true; none if all are false."""
+    return [tuple(map(int, np.unravel_index(int(np.argmax(wrong)), wrong.shape)))] if wrong.any() else []
+
+
 def refuse_numbers(status: Status, name: str, values: Doubles, wrong: NDArray[np.bool_], reason: str) -> None:
     """Name the first of the values that are wrong, if there are any."""
-    if wrong.any():
-        place = np.unravel_index(int(np.argmax(wrong)), wrong.shape)
+    for place in first_place(wrong):
         value = f"{values[place]:.7g}".replace("nan", "NaN").replace("inf", "Inf")
         raise error(status, f"{name}[{', '.join(map(str, place))}] = {value} {reason}")
 

@@ -236,10 +236,8 @@ class Instruments(InFolder):
     def topography(self, heights, unit="um", dim=2, channels=("Z",), kind="x3p", pixel_size=(2.0, 3.0)):
         """The module SurfaceTopography, whose files hold these heights; its first index counts along x."""
         found = mock.MagicMock(dim=dim, is_uniform=True, unit=unit, pixel_size=pixel_size, heights=lambda: heights)
-        reader = mock.MagicMock(channels=[mock.MagicMock() for _ in channels])
-        for channel, name in zip(reader.channels, channels):
-            channel.name = name
-        reader.default_channel = reader.channels[0]
+        named = [types.SimpleNamespace(name=name) for name in channels]
+        reader = mock.MagicMock(channels=named, default_channel=named[0])
         reader.format.return_value = kind
         reader.topography.side_effect = [heights if isinstance(heights, Exception) else found]
         reader.__enter__.return_value, reader.__exit__.return_value = reader, False

@@ -28,7 +28,7 @@ def read_profile(path: PathLike) -> tuple[NDArray[np.float64], NDArray[np.float6
     try:
         for count, line in lines(read_bytes(path).removeprefix(b"\xef\xbb\xbf")):
             place = Place(os.fspath(path), count)
-            point = plain_heights(line)
+            point = plain_heights(line, next((mark for mark in (b",", b";") if mark in line), None))
             if point is None or len(point) != 2 or not all(map(math.isfinite, point)):
                 words = columns(line)[0]
                 if words and not (points or headed) and all(map(is_word, words[:2])):

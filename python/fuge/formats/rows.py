@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from fuge.errors import FileError
 from fuge.formats.text import Place, Reason, quoted, refusal, value
-from fuge.heights import LARGEST
+from fuge.heights import LARGEST, first_place
 
 _COMMENT = re.compile(r"(?:^|(?<=[ \t\r,;]))[#!].*", re.DOTALL)
 _SEPARATOR = re.compile(r"[ \t\r]*([,;])[ \t\r]*|[ \t\r]+")
@@ -26,6 +26,7 @@ _UNMEASURED = re.compile(r"(?:[+-]?nan(?:\(.*)?|bad)?", re.IGNORECASE)
 _NO_WORD = re.compile(r"[0-9+\-.*].*|inf(?:inity)?|" + _UNMEASURED.pattern, re.IGNORECASE | re.DOTALL)
 # Nastran has exponents without a letter; elsewhere 1-2 is what is left of two numbers.
 _BARE_EXPONENT = re.compile(r"[0-9.][+-]")
+_HOLES = {b"BAD": b"nan", b"": b"nan"}
 # What numbers, NaN and BAD consist of, and what stands between them.
 _PLAIN = b"0123456789+-.eEnNaABD,; \t\r\n"
 
@@ -93,8 +94,8 @@ def plain_heights(line: bytes, separator: bytes | None = None) -> list[float] | 
     if line.translate(None, _PLAIN):
         return None
     words = line.split(separator)
-    if b"BAD" in line:
-        words = [b"nan" if word == b"BAD" else word for word in words]
+    if b"BAD" in line or separator and b"" in words:
+        words = [_HOLES.get(word, word) for word in words]
     try:
         return list(map(float, words))
     except ValueError:
@@ -155,7 +156,6 @@ def read_rows(path: str, content: bytes) -> Rows:
             numbers.append(count)
     header = [text(line) for _, line in islice(lines(content), form.line - 1)]
     rows = Rows(path, np.frombuffer(values).reshape(-1, form.columns), numbers, header)
-    for row_number, column in np.argwhere(np.abs(rows.values) > LARGEST)[:1]:
-        far = f"{rows.values[row_number, column]:.7g}"
-        raise rows.refuse(row_number, f"{far} is out of range: choose another unit of length")
+    for place in first_place(np.abs(rows.values) > LARGEST):
+        raise rows.refuse(place[0], f"{rows.values[place]:.7g} is out of range: choose another unit of length")
     return rows

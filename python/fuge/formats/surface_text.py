@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from fuge.errors import FileError
 from fuge.formats.rows import Rows, number
 from fuge.formats.text import Reason, quoted, refusal
+from fuge.heights import first_place
 
 _MICROMETRES = {"um", "\N{MICRO SIGN}m", "\N{GREEK SMALL LETTER MU}m"}
 _ANGSTROMS = {"\N{ANGSTROM SIGN}", "\N{LATIN CAPITAL LETTER A WITH RING ABOVE}"}
@@ -94,7 +95,7 @@ def read_grid(rows: Rows, fill: bool, certain: bool) -> Heights:
             f"{ny} rows of {nx} columns may be points or profiles: of points keep x, y and height only; if they are a "
             "grid, write # spacing_x = .. and # spacing_y = .. before them, or pass format='grid'",
         )
-    for row, column in () if fill else np.argwhere(np.isnan(height))[:1]:
+    for row, column in () if fill else first_place(np.isnan(height)):
         raise _unmeasured(rows, row, column)
     if any(spacing) or sizes is None:
         return Heights(height, spacing, header=_header_note(rows))
@@ -133,9 +134,9 @@ def read_points(rows: Rows, fill: bool) -> Heights:
     points = rows.values
     if points.shape[1] != 3:
         raise rows.refuse(0, f"{points.shape[1]} column(s): x, y and the height are needed")
-    for row, _ in np.argwhere(np.isnan(points[:, :2]))[:1]:
+    for row, _ in first_place(np.isnan(points[:, :2])):
         raise rows.refuse(row, "a position is missing: x, y and the height are needed")
-    for row, _ in () if fill else np.argwhere(np.isnan(points))[:1]:
+    for row, _ in () if fill else first_place(np.isnan(points)):
         raise _unmeasured(rows, row, 2)
     try:
         x, dx, nx, i = _fitted_axis(points[:, 0], "x")

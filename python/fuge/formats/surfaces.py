@@ -16,7 +16,7 @@ from fuge.formats.rows import read_rows
 from fuge.formats.sdf import is_sdf, read_sdf
 from fuge.formats.surface_text import Heights, comment_spacings, read_grid, read_points
 from fuge.formats.text import PathLike, read_bytes, refusal
-from fuge.heights import LARGEST, check_numbers, checked_heights, fill_surface, refuse_numbers, rms_slope
+from fuge.heights import LARGEST, check_numbers, checked_heights, fill_surface, first_place, refuse_numbers, rms_slope
 
 SurfaceFormat = Literal["any", "grid", "points", "sdf"]
 
@@ -91,17 +91,18 @@ def read_surface(path: PathLike, format: SurfaceFormat = "any", *, fill: bool = 
     """
     _arrays.choice("format", format, {"any": 0, "grid": 1, "points": 2, "sdf": 3})
     found = _read(path, format, fill)
-    for j, i in np.argwhere(np.abs(found.height) > LARGEST)[:1]:
+    for j, i in first_place(np.abs(found.height) > LARGEST):
         raise refusal(path, f"height[{j}, {i}] is out of range: choose another unit of length")
-    holes = np.argwhere(np.isnan(found.height))
-    if len(holes) == found.height.size:
+    holes = np.isnan(found.height)
+    filled = int(np.count_nonzero(holes))
+    if filled == holes.size:
         raise failure(path, "has no point that was measured")
-    for j, i in () if fill else holes[:1]:
-        place = f"{len(holes)} points were not measured, the first one is height[{j}, {i}]"
+    for j, i in () if fill else first_place(holes):
+        place = f"{filled} points were not measured, the first one is height[{j}, {i}]"
         raise refusal(path, f"{place}: let such points be filled")
-    height = fill_surface(found.height) if len(holes) > 0 else found.height
+    height = fill_surface(found.height) if filled > 0 else found.height
     spacing = found.spacing if all(found.spacing) else None
-    return SurfaceHeights(height, spacing, found.origin, len(holes), found.unit, found.header)
+    return SurfaceHeights(height, spacing, found.origin, filled, found.unit, found.header)
 
 
 def _read(path: PathLike, format: str, fill: bool) -> Heights:
