@@ -40,8 +40,8 @@ _REMEDIES = {"INPUT": "use *INCLUDE", "COMBINE": "list its faces", "CROP": "list
 # Surfaces of other types than the first two are skipped: they are no faces of elements.
 _SURFACE_TYPES = "ELEMENT NODE CUTTINGSURFACE CYLINDER EULERIANMATERIAL REVOLUTION SEGMENTS USER XFEM".split()
 
-# Sides of shells in the place of 1 to 6, until it is known that their elements are shells.
-_SIDES = {"SNEG": 7, "SPOS": 8}
+# The numbers of these faces, which only shells have.
+_SIDES = {"SNEG": 1, "SPOS": 2}
 
 # Members of a set are joined when so many are new, or as many as it has.
 _AT_ONCE = 100000
@@ -200,8 +200,8 @@ class _Reader:
                 self.positions.append(positions)
         elif block.keyword == "ELEMENT":
             type = squeezed(parameters.get("TYPE", ""))
-            if not (0 < len(type) <= _TYPE_LENGTH and type.isascii() and type.isprintable()):
-                raise Reason(f"*ELEMENT needs TYPE = and a type of at most {_TYPE_LENGTH} characters")
+            if not (0 < len(type) <= _TYPE_LENGTH and type.isascii() and type.isalnum()):
+                raise Reason(f"*ELEMENT needs TYPE = and a type of at most {_TYPE_LENGTH} letters and digits")
             if block.lines:
                 labels, counts, nodes = read_elements(block, type)
                 self.elements.blocks[id(block)] = labels
@@ -215,9 +215,8 @@ class _Reader:
         self.elements.number()
         sizes = [counts.size for counts in self.counts[1:]]
         self.element_types = np.repeat(np.array(self.types, dtype=np.str_), sizes)
-        self.is_shell = np.repeat(
-            np.array([element_type(type)[0] == "shell" for type in self.types], dtype=bool), sizes
-        )
+        is_shell = [element_type(type)[0] == "shell" for type in self.types]
+        self.is_shell = np.repeat(np.array(is_shell, dtype=bool), sizes)
         self.first = np.cumsum(np.concatenate(self.counts)).astype(np.intc)
         labels = np.concatenate(self.node_labels)
         self.connection = self.nodes.find(labels)
@@ -262,16 +261,15 @@ class _Reader:
             raise Reason(f"*SURFACE: TYPE = {quoted(parameters['TYPE'])} is not read")
 
     def _take_faces(self, block: Block, surface: _Set) -> None:
-        rows = read_rows(block, lambda items: (self.elements.item(items[0]), _face(items)))
-        parts = self.elements.parts(block, [(k, item) for k, (item, _) in enumerate(rows)], f"surface {surface.name}")
-        for k, (elements, (_, face)) in enumerate(zip(parts, rows)):
-            if face in _SIDES.values():
-                face -= 6
-                wrong = elements[~self.is_shell[elements]]
-                if wrong.size:
-                    what = f"element {self.elements.labels[wrong[0]]} of type {self.element_types[wrong[0]]}"
-                    raise block.refuse(f"{what} has no faces SPOS and SNEG, which shells have", k)
-            # Faces are numbered together.
+        rows = read_rows(block, lambda items: (self.elements.item(items[0]), *_face(items)))
+        items = [(k, item) for k, (item, _, _) in enumerate(rows)]
+        parts = self.elements.parts(block, items, f"surface {surface.name}")
+        for k, (elements, (_, face, of_shells)) in enumerate(zip(parts, rows)):
+            wrong = elements[~self.is_shell[elements]] if of_shells else elements[:0]
+            if wrong.size:
+                what = f"element {self.elements.labels[wrong[0]]} of type {self.element_types[wrong[0]]}"
+                raise block.refuse(f"{what} has no faces SPOS and SNEG, which shells have", k)
+            # All faces of all elements are counted together.
             surface.add(elements.astype(np.int64) * 8 + face)
 
     def mesh(self, paths: list[str]) -> Mesh:
@@ -332,8 +330,8 @@ def _check_alone(items: list[str]) -> None:
         raise Reason(f"{quoted(items[1])} would be the area of a node, which is not read: write one node in a line")
 
 
-def _face(items: list[str]) -> int:
-    """The number of the face behind an element or a set."""
+def _face(items: list[str]) -> tuple[int, bool]:
+    """The number of the face behind an element or a set, and whether only shells have it."""
     name = "".join(items[1:2]).upper()
     if any(items[2:]):
         raise Reason(f"{quoted(items[2])} behind the face is not read")
@@ -341,4 +339,4 @@ def _face(items: list[str]) -> int:
         raise Reason(f"the face of {quoted(items[0])} is missing: write its number, as in S1")
     if name not in _SIDES and not name.startswith("S"):
         raise Reason(f"{quoted(name)} is no face: S1 to S6, SPOS and SNEG are read")
-    return _SIDES.get(name) or label(name[1:], "face S", 1, 6)
+    return _SIDES.get(name) or label(name[1:], "face S", 1, 6), name in _SIDES
