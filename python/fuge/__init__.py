@@ -54,8 +54,7 @@ Bodies of finite elements
 
 Surfaces, profiles and matrices in files
 
-    read_surface(path)                      measured heights: SurfaceHeights
-    fill_surface, level_surface, write_surface
+    read_surface(path), fill_surface, level_surface, write_surface   measured heights: SurfaceHeights
     read_profile, sample_profile, level_profile
     read_stiffness(path)                    of CalculiX, Abaqus, Nastran or Matrix Market: StiffnessFile
     read_matrix, write_matrix, read_sparse, write_sparse   Matrix Market
