@@ -35,6 +35,7 @@ Solving: gaps and a load, a prescribed approach, or several rigid motions
     load_path(alpha, gap, load)             all loads at which a point changes its PointState: a Path
     contact_edges(x, width, force, element) edges finer than the grid: ContactEdges, each of an EdgeKind
     hertz_ellipse                           Hertz in closed form: HertzContact
+    solve_lcp(M, q), solve_qp(P, q, G, h, A, b)   problems without a contact: LcpSolution, QpSolution
     solve_smooth_punch                      one interval under a smooth profile, without a grid: SmoothContact
     solve_round_punch, solve_round_powers   the same for punches of revolution: RoundContact
 
@@ -42,6 +43,7 @@ Bodies of finite elements
 
     Body(stiffness).condense()              one body condensed to its contact points: Condensed
     Links                                   supports that lift off, gaps, cables and struts of a structure
+    Cases.table, Cases.envelope_table       results of load cases with names: a Table
     remove_member                           a stiffness matrix without a member, whose place a link takes
     ElasticBodies().solve()                 several bodies in one call: BodiesContact; join gives JoinedBodies
     ContactPairs, Surface                   contact points of two surfaces whose meshes need not match
@@ -52,8 +54,7 @@ Bodies of finite elements
 
 Surfaces, profiles and matrices in files
 
-    read_surface(path)                      measured heights: SurfaceHeights
-    fill_surface, level_surface, write_surface
+    read_surface(path), fill_surface, level_surface, write_surface   measured heights: SurfaceHeights
     read_profile, sample_profile, level_profile
     read_stiffness(path)                    of CalculiX, Abaqus, Nastran or Matrix Market: StiffnessFile
     read_matrix, write_matrix, read_sparse, write_sparse   Matrix Market
@@ -84,7 +85,7 @@ What can go wrong: each error and warning has a Status and a message that says h
     Error: InputError, MatrixError, EquilibriumError, LimitError, UnsupportedError, CallOrderError, FileError,
         OutOfMemoryError, CallbackError, CancelledError
     Warning: ResidualWarning, NotUniqueWarning, IllConditionedWarning, GridWarning, PairsWarning,
-        NoContactWarning, CasesWarning, NotProvedWarning, KinkWarning, UnreachableWarning
+        NoContactWarning, FileWarning, CasesWarning, NotProvedWarning, KinkWarning, UnreachableWarning
 """
 
 # "as" exports a name, as __all__ would; but with that help(fuge) would have the whole text of each.
@@ -105,6 +106,7 @@ from fuge.errors import (
     EquilibriumError as EquilibriumError,
     Error as Error,
     FileError as FileError,
+    FileWarning as FileWarning,
     GridWarning as GridWarning,
     IllConditionedWarning as IllConditionedWarning,
     InputError as InputError,
@@ -122,24 +124,20 @@ from fuge.errors import (
     UnsupportedError as UnsupportedError,
     Warning as Warning,
 )
-from fuge.files import (
-    SurfaceHeights as SurfaceHeights,
-    fill_surface as fill_surface,
-    level_profile as level_profile,
-    level_surface as level_surface,
-    read_matrix as read_matrix,
-    read_profile as read_profile,
-    read_sparse as read_sparse,
-    read_stiffness as read_stiffness,
-    read_surface as read_surface,
-    sample_profile as sample_profile,
-    write_matrix as write_matrix,
-    write_results as write_results,
-    write_sparse as write_sparse,
-    write_surface as write_surface,
-    write_volume as write_volume,
-)
 from fuge.formats.decks import read_deck as read_deck
+from fuge.formats.matrix_market import (
+    read_matrix as read_matrix,
+    read_sparse as read_sparse,
+    write_matrix as write_matrix,
+    write_sparse as write_sparse,
+)
+from fuge.formats.profiles import read_profile as read_profile
+from fuge.formats.stiffness import read_stiffness as read_stiffness
+from fuge.formats.surfaces import (
+    SurfaceHeights as SurfaceHeights,
+    read_surface as read_surface,
+    write_surface as write_surface,
+)
 from fuge.halfplane import (
     ContactEdges as ContactEdges,
     EdgeKind as EdgeKind,
@@ -156,6 +154,12 @@ from fuge.halfspace import (
     hertz_ellipse as hertz_ellipse,
     ring_displacement as ring_displacement,
     ring_matrix as ring_matrix,
+)
+from fuge.heights import (
+    fill_surface as fill_surface,
+    level_profile as level_profile,
+    level_surface as level_surface,
+    sample_profile as sample_profile,
 )
 from fuge.layer_points import (
     layered_halfplane_displacement as layered_halfplane_displacement,
@@ -196,7 +200,14 @@ from fuge.operators import (
 )
 from fuge.pairs import ContactPairs as ContactPairs, Surface as Surface
 from fuge.path import Path as Path, PointState as PointState, load_path as load_path
+from fuge.programs import (
+    LcpSolution as LcpSolution,
+    QpSolution as QpSolution,
+    solve_lcp as solve_lcp,
+    solve_qp as solve_qp,
+)
 from fuge.proof import Proof as Proof
+from fuge.results import write_results as write_results, write_volume as write_volume
 from fuge.smooth import (
     RoundContact as RoundContact,
     SmoothContact as SmoothContact,
@@ -234,5 +245,6 @@ from fuge.stress_peak import (
     halfspace_peak as halfspace_peak,
     ring_peak as ring_peak,
 )
+from fuge.tables import Table as Table
 
 __version__ = _library.version()

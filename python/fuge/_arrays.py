@@ -186,7 +186,7 @@ def choice(name: str, value: Any, values: Mapping[str, int], status: Status = St
 
 def texts(words: Collection[str]) -> Any:
     """A C array of strings."""
-    return (ctypes.c_char_p * len(words))(*(word.encode() for word in words))
+    return (ctypes.c_char_p * len(words))(*(word.encode(errors="surrogateescape") for word in words))
 
 
 def addresses(arrays: Sequence[Doubles]) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +17,7 @@ from fuge.columns import CompressedColumns, compressed, compressed_dense, is_spa
 from fuge.contact import Info, info_of
 from fuge.errors import Status, error
 from fuge.pairs import Normals, PairMethod, Surface, pair_options, surface_arguments
+from fuge.reactions import opening_rows, stiffness_rows
 from fuge.solver import ALL_CORES, Method, chosen_options
 
 
@@ -43,6 +45,8 @@ class BodiesContact:
         Pair and node of each node without an opposite face.
     displacement : list of ndarray
         For each body, of all its degrees of freedom; length.
+    reaction : list of ndarray
+        For each body, forces of the supports on it, in the order of :meth:`ElasticBodies.fix`.
     info : Info
         Report, with the certificate.
     message : str
@@ -61,8 +65,13 @@ class BodiesContact:
     direction: NDArray[np.float64]
     unpaired: NDArray[np.intc]
     displacement: list[NDArray[np.float64]]
+    reaction: list[NDArray[np.float64]]
     info: Info
     message: str
+
+    def __repr__(self) -> str:
+        known = f"{self.info.contacts} of {self.force.size} points in contact, residual {self.info.residual:.1e}"
+        return f"<BodiesContact: {len(self.displacement)} bodies, {known}>"
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,6 +98,11 @@ class JoinedBodies:
     gap_upper: NDArray[np.float64]
     area: NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        return (
+            f"<JoinedBodies: {len(self.first) - 1} bodies, {self.first[-1]} degrees of freedom, {len(self.dof)} points>"
+        )
+
 
 class ElasticBodies(Owner):
     """Bodies and pairs of their surfaces. Bodies may float; sliding is small, without friction.
@@ -107,8 +121,17 @@ class ElasticBodies(Owner):
 
     def __init__(self) -> None:
         self._handle = new_handle("bodies", "fuge_bodies_create", "fuge_bodies_free")
+        self._matrices: list[CompressedColumns] = []
         self._degrees: list[int] = []
+        self._fixed: list[NDArray[np.intc]] = []
+        self._loads: list[NDArray[np.float64]] = []
+        self._surfaces: list[tuple[int, Surface]] = []
         self._dimensions = 0
+
+    def __repr__(self) -> str:
+        return (
+            f"<ElasticBodies: {len(self._degrees)} bodies of {', '.join(map(str, self._degrees))} degrees of freedom>"
+        )
 
     def add(self, stiffness: Any) -> int:
         """Add a body and return its number, from 0.
@@ -124,19 +147,26 @@ class ElasticBodies(Owner):
             raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
         body = np.empty(1, dtype=np.intc)
         self._call("fuge_bodies_add", matrix.shape[0], matrix.column, matrix.row, matrix.value, body)
+        self._matrices.append(matrix)
         self._degrees.append(matrix.shape[0])
+        self._fixed.append(np.empty(0, dtype=np.intc))
+        self._loads.append(np.zeros(matrix.shape[0]))
         return int(body[0])
 
     def fix(self, body: int, dof: ArrayLike, displacement: ArrayLike | None = None) -> None:
         """Fix degrees of freedom of a body; see :meth:`Body.fix`."""
         fixed = _arrays.integers("dof", dof, (None,))
         given = None if displacement is None else _arrays.spread("displacement", displacement, fixed.size)
-        self._call("fuge_bodies_fix", _arrays.integer("body", body), fixed.size, fixed, given)
+        number = self._number(body)
+        self._call("fuge_bodies_fix", number, fixed.size, fixed, given)
+        self._fixed[number] = fixed.copy()
 
     def set_load(self, body: int, load: ArrayLike) -> None:
         """Set the external load of a body, one force for each of its degrees of freedom."""
         number = self._number(body)
-        self._call("fuge_bodies_set_load", number, _arrays.vector("load", load, self._degrees[number]))
+        forces = _arrays.vector("load", load, self._degrees[number])
+        self._call("fuge_bodies_set_load", number, forces)
+        self._loads[number] = forces.copy()
 
     def set_rigid_modes(self, body: int, rigid_modes: ArrayLike) -> None:
         """Set the rigid modes that the supports of a body leave, (degrees, m).
@@ -180,6 +210,9 @@ class ElasticBodies(Owner):
         self._call("fuge_bodies_set_geometry", _arrays.number("crease", crease), int(bool(revolution)))
         self._call("fuge_bodies_add_pair", *options)
         self._dimensions = int(arguments[0])
+        for body, surface in ((contact_body, contact), (opposite_body, opposite)):
+            if body is not None and surface.dof is not None:
+                self._surfaces.append((body, surface))
 
     def solve(
         self,
@@ -265,9 +298,26 @@ class ElasticBodies(Owner):
             direction,
             np.column_stack(unpaired),
             displacement,
+            self._reactions(displacement, force),
             self.info,
             message,
         )
+
+    def _reactions(
+        self, displacement: list[NDArray[np.float64]], force: NDArray[np.float64]
+    ) -> list[NDArray[np.float64]]:
+        """Forces of the supports of each body: what its stiffness, its load and the contact forces leave."""
+        given = zip(self._matrices, self._fixed, self._loads, displacement)
+        found = [stiffness_rows(matrix, fixed) @ u - load[fixed] for matrix, fixed, load, u in given]
+        if any(np.isin(self._fixed[body], np.asarray(surface.dof)).any() for body, surface in self._surfaces):
+            with warnings.catch_warnings():
+                # The solve has given them.
+                warnings.simplefilter("ignore")
+                joined = self.join()
+            pressing = opening_rows(joined.dof, joined.normal, int(joined.first[-1])).T @ force
+            for reaction, fixed, first in zip(found, self._fixed, joined.first):
+                reaction -= pressing[first + fixed]
+        return found
 
     def _number(self, body: int) -> int:
         number = _arrays.integer("body", body)

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-import ctypes
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, Callable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import dia_matrix
 
 from fuge import _arrays
-from fuge._calls import MESSAGE_LENGTH, Owner, call, end_call, new_handle
+from fuge._calls import Owner, call, new_handle
 from fuge._library import function
 from fuge._messages import in_python
-from fuge.cases import Cases
+from fuge.cases import Cases, checked_names
 from fuge.columns import compressed, is_sparse, require_sparse, stacked
-from fuge.errors import Status, Warning, error, warn
+from fuge.dof_names import DofNames
+from fuge.errors import Status, error, finish
 from fuge.links import Links
-
-if TYPE_CHECKING:
-    from fuge.solver import Solver
+from fuge.reactions import opening_rows, stiffness_rows
+from fuge.solver import Solver
+from fuge.stability import free_motions, modes_of, null_space
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +45,10 @@ class Condensed:
     modes: NDArray[np.float64]
     resultant: NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        n, m = self.modes.shape
+        return f"<Condensed: {n} contact points, {m} rigid modes>"
+
 
 class Body(Owner):
     """A body, given by its stiffness matrix K, symmetric, force per displacement.
@@ -52,9 +58,9 @@ class Body(Owner):
 
     Parameters
     ----------
-    stiffness : array_like of shape (degrees, degrees), scipy.sparse matrix or CompressedColumns
+    stiffness : array_like of shape (degrees, degrees), scipy.sparse matrix, CompressedColumns or StiffnessFile
         Both triangles; of a sparse matrix one of them will do. Its arrays are not copied if they have the right types:
-        leave them unchanged.
+        leave them unchanged. With a StiffnessFile messages name degrees of freedom by node and direction.
 
     Raises
     ------
@@ -76,12 +82,13 @@ class Body(Owner):
     _message_function = "fuge_body_message"
 
     def __init__(self, stiffness: Any) -> None:
+        self._names = DofNames(stiffness)
         if is_sparse(stiffness):
             self._sparse(stiffness)
             return
         matrix = _arrays.symmetric("stiffness", stiffness)
         self._create("fuge_body_dense", matrix.shape[0], matrix, matrix.shape[0])
-        self._handle.keep(matrix)
+        self._keep(matrix, matrix, partial(Body, matrix))
 
     @classmethod
     def from_band(cls, ab: ArrayLike, *, upper: bool = False) -> Body:
@@ -97,8 +104,11 @@ class Body(Owner):
         band = _arrays.columns("ab", ab, (None, None))
         rows, degrees = band.shape
         body = cls.__new__(cls)
+        body._names = DofNames(None)
         body._create("fuge_body_band", degrees, rows - 1, band, rows, int(bool(upper)))
-        body._handle.keep(band)
+        diagonals = (rows - 1 if upper else 0) - np.arange(rows)
+        matrix = dia_matrix((band, diagonals), shape=(degrees, degrees))
+        body._keep(band, matrix, partial(cls.from_band, band, upper=upper))
         return body
 
     def _sparse(self, stiffness: Any) -> None:
@@ -107,32 +117,54 @@ class Body(Owner):
             raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
         require_sparse()
         self._create("fuge_body_sparse", matrix.shape[0], matrix.column, matrix.row, matrix.value)
-        self._handle.keep(matrix)
+        self._keep(matrix, matrix, partial(Body, matrix))
 
     def _create(self, create: str, degrees: int, *arguments: Any) -> None:
         self.degrees = degrees
-        self._n = 0
-        self._fixed = 0
+        self._dof, self._normal = np.empty((0, 1), dtype=np.intc), np.empty((0, 1))
+        self._fixed, self._settled = np.empty(0, dtype=np.intc), np.empty(0)
+        self._supports: tuple[str, ...] | None = None
+        self._load: NDArray[np.float64] | None = None
         self._links: Links | None = None
         self._solver: Solver | None = None
         self._handle = new_handle("body", create, "fuge_body_free", degrees, *arguments)
 
-    def fix(self, dof: ArrayLike, displacement: ArrayLike | None = None) -> None:
+    def _keep(self, used: Any, matrix: Any, again: Callable[[], Body]) -> None:
+        """Keep what the library refers to, the matrix, and how to make the body once more."""
+        self._handle.keep(used)
+        self._matrix, self._again = matrix, again
+
+    def __repr__(self) -> str:
+        held = f"{self.degrees} degrees of freedom, {self._fixed.size} of them fixed"
+        return f"<Body: {held}, {self._n} {'contact points' if self._links is None else 'links'}>"
+
+    @property
+    def _n(self) -> int:
+        """Number of contact points."""
+        return len(self._dof)
+
+    def fix(self, dof: ArrayLike, displacement: ArrayLike | None = None, *, names: Sequence[str] | None = None) -> None:
         """Fix degrees of freedom, at zero or at these displacements, in place of those that were fixed before.
 
         Parameters
         ----------
         dof : array_like of int, shape (count,)
         displacement : array_like, shape (count,), or float, optional
+        names : sequence of str, optional
+            Of the supports, for tables of reactions; otherwise those of the degrees of freedom.
         """
         fixed = _arrays.integers("dof", dof, (None,))
         given = None if displacement is None else _arrays.spread("displacement", displacement, fixed.size)
+        supports = None if names is None else checked_names(names, fixed.size)
         self._call("fuge_body_fix", fixed.size, fixed, given)
-        self._fixed = fixed.size
+        self._supports, self._fixed = supports, fixed.copy()
+        self._settled = np.zeros(fixed.size) if given is None else given.copy()
 
     def set_load(self, load: ArrayLike) -> None:
         """Set the external load, one force for each degree of freedom. After :meth:`condense` it costs one solve."""
-        self._call("fuge_body_set_load", _arrays.vector("load", load, self.degrees))
+        forces = _arrays.vector("load", load, self.degrees)
+        self._call("fuge_body_set_load", forces)
+        self._load = forces.copy()
 
     def set_rigid_modes(self, rigid_modes: ArrayLike) -> None:
         """Let the body float, with the rigid modes that its supports allow, (degrees, m); see :func:`rigid_modes`."""
@@ -157,14 +189,13 @@ class Body(Owner):
         n, width = degrees.shape
         directions = _arrays.doubles("normal", stacked("normal", normal), (n, width))
         self._call("fuge_body_set_contact", n, width, degrees, directions)
-        self._n = n
-        self._links = None
+        self._dof, self._normal, self._links = degrees.copy(), directions.copy(), None
 
     def set_links(self, links: Links) -> None:
         """Make the links of a structure the contact points, before :meth:`condense`; then :meth:`solve_cases`."""
         with links._handle.use() as pointer:
             self._call("fuge_body_set_links", pointer)
-        self._n = links.count
+        self._dof, self._normal = links._contact()
         self._links = links
 
     def condense(self) -> Condensed:
@@ -229,8 +260,46 @@ class Body(Owner):
         self._call("fuge_body_recover", forces, motions, displacement)
         return displacement
 
-    def solve_cases(self, loads: ArrayLike, *, supports: ArrayLike | None = None) -> Cases:
-        """Forces of the links and displacements of the structure in load cases, after :meth:`condense`.
+    def reaction(self, displacement: ArrayLike, force: ArrayLike, load: ArrayLike | None = None) -> NDArray[np.float64]:
+        """Forces of the supports on the body: at the degrees of freedom of :meth:`fix`, in their order.
+
+        Parameters
+        ----------
+        displacement : array_like, shape (degrees,) or (cases, degrees)
+            That of :meth:`recover`; length.
+        force : array_like, shape (n,) or (cases, n)
+            Contact forces.
+        load : array_like, shape of displacement, optional
+            External loads; by default that of :meth:`set_load`.
+
+        Returns
+        -------
+        ndarray, shape (fixed,) or (cases, fixed)
+            K u less the load and the contact forces; a moment where a rotation is held.
+
+        Raises
+        ------
+        InputError
+            A shape does not fit, or a fixed degree of freedom is out of range.
+        """
+        u = _arrays.doubles("displacement", displacement, (self.degrees,), (None, self.degrees))
+        f = _arrays.doubles("force", force, (*u.shape[:-1], self._n))
+        p = np.zeros(self.degrees) if self._load is None else self._load
+        if load is not None:
+            p = _arrays.doubles("load", load, u.shape, (self.degrees,))
+        self._check_dof("fixed", self._fixed, 0)
+        held, contact = stiffness_rows(self._matrix, self._fixed), self._openings()[:, self._fixed]
+        return np.asarray((held @ u.T).T - (contact.T @ f.T).T - p[..., self._fixed])
+
+    def solve_cases(
+        self,
+        loads: ArrayLike,
+        *,
+        supports: ArrayLike | None = None,
+        names: Sequence[str] | None = None,
+        prove: bool = False,
+    ) -> Cases:
+        """Forces of the links, reactions and displacements of the structure in load cases, after :meth:`condense`.
 
         Parameters
         ----------
@@ -239,11 +308,17 @@ class Body(Owner):
         supports : array_like, shape (cases, fixed), optional
             Displacements of the supports in each case, in the order of :meth:`fix`; length. By default those of
             :meth:`fix` in all cases.
+        names : sequence of str, optional
+            Of the cases, for messages and tables; otherwise 'load case 0' and so on.
+        prove : bool
+            Bound the errors of all forces and gaps too, `proof` of the result: of the condensed problem, whose
+            influence matrix and gaps are taken as they are.
 
         Returns
         -------
         Cases
-            With `displacement`, shape (cases, degrees). A case that fails harms no other: its row is NaN.
+            With `displacement`, shape (cases, degrees), and `reaction`, shape (cases, fixed). A case that fails harms
+            no other: its row is NaN. Where nothing balances the loads, `message` tells which links open or give way.
 
         Warns
         -----
@@ -251,6 +326,8 @@ class Body(Owner):
             Some cases failed or have a warning; see `status` and `message` of the result.
         ResidualWarning
             Displacements are out of balance by more than 1e-10 of the forces; `message` tells in which cases.
+        NotProvedWarning
+            Bounds of some cases are infinite.
         Warning
             Links that can never act, because fixed degrees of freedom hold their ends.
 
@@ -259,48 +336,17 @@ class Body(Owner):
         CallOrderError
             There are no links, or the body has not been condensed, or has changed since.
         """
-        forces = _arrays.doubles("loads", loads, (None, self.degrees))
-        number = len(forces)
-        moved = None if supports is None else _arrays.doubles("supports", supports, (number, self._fixed))
-        solver, links = self._pose()
-        if moved is None:
-            with links._handle.use() as pointer:
-                idle = links._read_message(pointer)
-            if idle:
-                warn(Warning(idle, Status.DONE))
-        displacement, resultant = np.empty((number, self._n)), np.empty((number, self._mode_count()))
-        refused = np.zeros(number, dtype=np.intc)
-        with self._handle.use() as pointer:
-            code = function("fuge_body_get_cases")(pointer, number, forces, moved, displacement, resultant, refused)
-            message = in_python(self._read_message(pointer), self._shapes)
-            if code < 0:
-                end_call(code, lambda: message)
-            reasons = {int(k): self._case_message(pointer, int(k)) for k in np.flatnonzero(refused < 0)}
-        found, solved, remark = solver._solve_cases(displacement + links.gap, resultant if resultant.size else None)
-        if code == 0:
-            code, message = solved, remark
-        for k, reason in reasons.items():
-            found = _report(found, k, Status(int(refused[k])), reason)
-        recovered = np.empty(forces.shape)
-        arguments = number, forces, moved, found.force, found.motion, recovered, found.status
-        with self._handle.use() as pointer:
-            balance = function("fuge_body_recover_cases")(pointer, *arguments)
-            imbalance = in_python(self._read_message(pointer), self._shapes)
-            remarks = [self._case_message(pointer, k) for k in range(number if balance > 0 else 0)]
-        end_call(balance, lambda: imbalance)
-        for k, remark in enumerate(remarks):
-            if remark and found.status[k] == Status.DONE:
-                found = _report(found, k, Status(balance), remark)
-        end_call(code, lambda: message)
-        return replace(found, displacement=recovered)
+        from fuge.link_cases import solve_link_cases
 
-    def _case_message(self, pointer: ctypes.c_void_p, k: int) -> str:
-        text = ctypes.create_string_buffer(MESSAGE_LENGTH + 1)
-        function("fuge_body_case_message")(pointer, k, text, MESSAGE_LENGTH + 1)
-        return in_python(text.value.decode(errors="replace"), self._shapes)
+        return solve_link_cases(self, loads, supports, names, prove)
 
-    def mechanism(self) -> NDArray[np.float64]:
-        """How the structure moves where no forces of its links balance the load of :meth:`set_load`.
+    def mechanism(self, load: ArrayLike | None = None) -> NDArray[np.float64]:
+        """How the structure moves where no forces of its links balance a load; no solve has to fail before.
+
+        Parameters
+        ----------
+        load : array_like, shape (degrees,), optional
+            External load; by default that of :meth:`set_load`.
 
         Returns
         -------
@@ -310,19 +356,64 @@ class Body(Owner):
 
         Raises
         ------
+        EquilibriumError
+            The load drives a motion that moves no link; :meth:`check_stability` tells which.
         CallOrderError
             There are no links, or the body has not been condensed, or has changed since.
         """
+        if load is not None:
+            before = np.zeros(self.degrees) if self._load is None else self._load
+            self.set_load(load)
+            try:
+                return self.mechanism()
+            finally:
+                self.set_load(before)
         solver, _ = self._pose()
         displacement = np.empty(self.degrees)
         with solver._handle.use() as pointer:
             self._call("fuge_body_find_mechanism", pointer, displacement)
         return displacement
 
+    def check_stability(self, position: ArrayLike, dof: ArrayLike) -> dict[str, NDArray[np.float64]]:
+        """What neither stiffness nor supports nor links hold, in whatever direction: to be asked before any load.
+
+        Overturning depends on the load: ask :meth:`mechanism`. The body need not have been condensed; a factorisation
+        is made for this alone.
+
+        Parameters
+        ----------
+        position : array_like, shape (nodes, 2) or (nodes, 3)
+            Where the nodes are; length.
+        dof : array_like of int, shape of position
+            Their degrees of freedom; -1: does not move.
+
+        Returns
+        -------
+        dict
+            Sentences such as 'nothing holds the structure along x: it slides', each with its motion, shape (degrees,),
+            the largest displacement of size 1. Empty if all is held.
+
+        Raises
+        ------
+        InputError
+            A shape does not fit, or a degree of freedom is out of range.
+        MatrixError
+            K is not symmetric, or has negative stiffness.
+        """
+        places = _arrays.doubles("position", position, (None, 2), (None, 3))
+        degrees = _arrays.integers("dof", dof, places.shape)
+        if degrees.size == 0:
+            raise error(Status.ERR_SIZE, "there is no node: position and dof are empty")
+        self._check_dof("dof", degrees)
+        with self._again() as probe:
+            probe.fix(self._fixed)
+            modes = modes_of(probe)
+        openings = self._openings()
+        free = modes @ null_space(openings @ modes, np.abs(self._normal).max(initial=0.0))
+        return free_motions(free, places, degrees, self._names.most)
+
     def _pose(self) -> tuple[Solver, Links]:
         """A solver with the problem of the links, kept until the body is condensed again."""
-        from fuge.solver import Solver
-
         links = self._links
         if links is None:
             raise error(Status.ERR_CALL_ORDER, "the body has no links: call set_links and condense first")
@@ -332,18 +423,35 @@ class Body(Owner):
             self._solver = Solver(influence)
         with self._handle.use() as body, self._solver._handle.use() as solver:
             links._call("fuge_links_pose", body, solver)
+        self._solver._take_links(links.gap, links._play())
         return self._solver, links
 
     def _mode_count(self) -> int:
         return self._counts("fuge_body_get_mode_count")[0]
 
+    def _openings(self) -> Any:
+        """How far displacements open the contact points, as a matrix (n, degrees)."""
+        self._check_dof("dof", self._dof)
+        return opening_rows(self._dof, self._normal, self.degrees)
 
-def _report(cases: Cases, k: int, status: Status, message: str) -> Cases:
-    """The cases with what the body has reported of case k."""
-    cases.status[k] = status
-    infos, messages = list(cases.info), list(cases.message)
-    infos[k], messages[k] = replace(infos[k], status=status), message
-    return replace(cases, info=tuple(infos), message=tuple(messages))
+    def _check_dof(self, name: str, dof: NDArray[np.intc], least: int = -1) -> None:
+        wrong = dof[(dof < least) | (dof >= self.degrees)]
+        if wrong.size > 0:
+            raise error(Status.ERR_DOF, f"{name} has {wrong[0]}, but there are {self.degrees} degrees of freedom")
+
+    def _support_names(self) -> tuple[str, ...]:
+        return self._supports or tuple(self._names[int(dof)] for dof in self._fixed)
+
+    def _named(self, message: str) -> str:
+        """The message with names of links and degrees of freedom."""
+        return self._names.in_message(message, () if self._links is None else self._links.names)
+
+    def _call(self, name: str, *arguments: Any, shapes: Any = None) -> None:
+        """Call a function of the body; its message has names."""
+        with self._handle.use() as pointer:
+            code = function(name)(pointer, *arguments)
+            message = in_python(self._read_message(pointer), self._shapes) if code != 0 else ""
+        finish(code, self._named(message))
 
 
 def rigid_modes(position: ArrayLike) -> NDArray[np.float64]:

@@ -32,6 +32,10 @@ class CompressedColumns:
     row: NDArray[np.intc]
     value: NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        rows, columns = self.shape
+        return f"<{type(self).__name__}: {rows} x {columns}, {len(self.value)} entries>"
+
     def tocsc(self) -> Any:
         """The matrix as ``scipy.sparse.csc_matrix``, which needs scipy."""
         from scipy.sparse import csc_matrix

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import weakref
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,9 +13,6 @@ from fuge.cells import Cells, pressure_of
 from fuge.design import Gradients
 from fuge.errors import Status, error
 from fuge.proof import Proof
-
-if TYPE_CHECKING:
-    from fuge.solver import Solver
 
 
 @dataclass(frozen=True)
@@ -87,7 +84,7 @@ class Contact:
     message: str
     cells: Cells | None = None
     proof: Proof | None = None
-    _solver: weakref.ref[Solver] | None = field(default=None, repr=False)
+    _solver: weakref.ref[Any] | None = field(default=None, repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_solver": None}
@@ -102,7 +99,8 @@ class Contact:
         CallOrderError
             The solver has gone, or has solved another problem since.
         """
-        return self._last_solver()._prove(self) if self.proof is None else self.proof
+        proof: Proof = self._last_solver()._prove(self) if self.proof is None else self.proof
+        return proof
 
     def vjp(
         self,
@@ -126,9 +124,10 @@ class Contact:
         CallOrderError
             The solver has gone, or has solved another problem since.
         """
-        return self._last_solver()._vjp(self, force, gap, motion, pressure)
+        gradients: Gradients = self._last_solver()._vjp(self, force, gap, motion, pressure)
+        return gradients
 
-    def _last_solver(self) -> Solver:
+    def _last_solver(self) -> Any:
         """The solver whose solution this is; whether the last one, it says itself."""
         solver = None if self._solver is None else self._solver()
         if solver is None:
@@ -194,13 +193,16 @@ class Derivative:
     gap: NDArray[np.float64]
     motion: NDArray[np.float64]
 
+    def __repr__(self) -> str:
+        return f"<Derivative: {self.force.size} points, motion {self.motion}>"
+
 
 def no_solver() -> Exception:
     """The error of a solution that is not the last one of a solver that is still there."""
     return error(
         Status.ERR_CALL_ORDER,
-        "the solver of this solution has gone, or has solved another problem since: make a fuge.Solver and keep it, and "
-        "call this before it solves again; for a proof pass prove=True to fuge.solve",
+        "the solver of this solution has gone, or has solved another problem since: make a fuge.Solver and keep it, "
+        "and call this before it solves again; for a proof pass prove=True to fuge.solve",
     )
 
 
@@ -218,6 +220,9 @@ class History:
 
     basis: NDArray[np.intc]
     z: NDArray[np.float64]
+
+    def __repr__(self) -> str:
+        return f"<History: {self.z.size} steps>"
 
 
 def info_of(report: Any) -> Info:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fuge import _arrays
 from fuge.errors import InputError, Status
-from fuge.formats.text import Place, Reason
+from fuge.formats.text import PathLike, Place, Reason
 from fuge.links import Links
 from fuge.stiffness_rows import RowNames, StiffnessFile
 
@@ -92,15 +92,6 @@ class Deck:
 
     Attributes
     ----------
-    link_names, case_names : list of str
-        Card and number, such as CGAP 12; name of a case, such as SUBCASE 3.
-    node_a, node_b : ndarray of int, shape (links,)
-        Numbers of the nodes in the file; 0: the ground.
-    direction : ndarray, shape (links, 3)
-        Unit vectors.
-    gap, play, compliance, limit : ndarray, shape (links,)
-        Gap and distance of a second stop, length; of the link, length per force; of its force. Infinite play: no second
-        stop; infinite limit: none.
     paths : list of str
         All files that have been read.
     """
@@ -118,39 +109,95 @@ class Deck:
 
     @property
     def link_names(self) -> list[str]:
+        """Card and number, such as CGAP 12, or names of a table."""
         return [link.name for link in self._links]
 
     @property
     def case_names(self) -> list[str]:
+        """Such as SUBCASE 3, STEP 3, or the name of a step."""
         return [case.name for case in self._cases]
 
     @property
     def node_a(self) -> NDArray[np.intc]:
+        """Number of the first node of each link in the file; 0: the ground."""
         return np.array([link.node_a for link in self._links], dtype=np.intc)
 
     @property
     def node_b(self) -> NDArray[np.intc]:
+        """Number of the second node of each link in the file; 0: the ground."""
         return np.array([link.node_b for link in self._links], dtype=np.intc)
 
     @property
     def direction(self) -> NDArray[np.float64]:
+        """Unit vectors, shape (links, 3)."""
         return np.array([link.direction for link in self._links], dtype=float).reshape(-1, 3)
 
     @property
     def gap(self) -> NDArray[np.float64]:
+        """Gaps without load, length; negative: an interference."""
         return np.array([link.gap for link in self._links], dtype=float)
 
     @property
     def play(self) -> NDArray[np.float64]:
+        """Distances of a second stop, length; infinite: none."""
         return np.array([link.play for link in self._links], dtype=float)
 
     @property
     def compliance(self) -> NDArray[np.float64]:
+        """Of the links themselves, length per force; 0: rigid."""
         return np.array([link.compliance for link in self._links], dtype=float)
 
     @property
     def limit(self) -> NDArray[np.float64]:
+        """Limits of the forces; infinite: none."""
         return np.array([link.limit for link in self._links], dtype=float)
+
+    def read_links(self, path: PathLike) -> None:
+        """Add the links of a table.
+
+        Columns have the names node_a, node_b, x, y, z, gap, play, stiffness, limit and name, in this order or in that
+        of a heading. Node 0 is the ground; x, y, z is a direction of any length, along which the link opens. Blank or
+        missing from gap on: no gap, one-sided, rigid, no limit, link and its number; so are -1 as a play or limit and 0
+        as a stiffness. Columns stand between commas, semicolons or tabs, else between blanks; comments go from # on.
+
+        Raises
+        ------
+        FileError
+            The message has the file, the line and the reason; the deck is unchanged.
+        """
+        from fuge.formats.deck_tables import read_links
+
+        read_links(self, path)
+
+    def read_supports(self, path: PathLike) -> None:
+        """Add the supports of a table to the model, for cases to come, and to all load cases.
+
+        Columns node, directions, such as xyz or 123, and displacement or rotation, 0 if it is blank; in this order or
+        in that of a heading, as of :meth:`read_links`.
+
+        Raises
+        ------
+        FileError
+            As of :meth:`read_links`; also if a support contradicts one of the deck.
+        """
+        from fuge.formats.deck_tables import read_supports
+
+        read_supports(self, path)
+
+    def read_cases(self, path: PathLike) -> None:
+        """Add the load cases of a table, with the supports of the model.
+
+        Lines node.direction, such as 17.3, and a force or a moment for each case; a heading names the cases, behind a
+        word for the first column. Separators are those of :meth:`read_links`.
+
+        Raises
+        ------
+        FileError
+            As of :meth:`read_links`.
+        """
+        from fuge.formats.deck_tables import read_cases
+
+        read_cases(self, path)
 
     def links(self, stiffness: StiffnessFile) -> Links:
         """The links with their laws and names, for :meth:`Body.set_links`; link k is ``link_names[k]``.
@@ -170,7 +217,7 @@ class Deck:
         """
         if not self._links:
             raise InputError("the deck has no one-way link", Status.ERR_SIZE)
-        rows = RowNames(stiffness)
+        rows = stiffness.row_names
         links = Links()
         for link in self._links:
             dof_a = self._rows_of(link, link.node_a, rows)
@@ -211,7 +258,7 @@ class Deck:
 
     def loads(self, stiffness: StiffnessFile) -> NDArray[np.float64]:
         """External forces of the load cases, (cases, rows). Forces at supports go into these, and have no effect."""
-        rows = RowNames(stiffness)
+        rows = stiffness.row_names
         loads = np.zeros((len(self._cases), len(rows)))
         for k, case in enumerate(self._cases):
             for dof, load in case.loads.items():
@@ -230,7 +277,7 @@ class Deck:
         number = _arrays.integer("case", case)
         if not 0 <= number < len(self._cases):
             raise InputError(f"load case {number} is outside 0 .. {len(self._cases) - 1}", Status.ERR_SIZE)
-        rows, chosen = RowNames(stiffness), self._cases[number]
+        rows, chosen = stiffness.row_names, self._cases[number]
         held = list(_held_rows(chosen, rows))
         dof = np.array([row for row, _ in held], dtype=np.intc)
         return dof, np.array([displacement for _, displacement in held], dtype=float)

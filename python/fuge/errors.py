@@ -158,6 +158,10 @@ class NoContactWarning(Warning):
     """No point of the bodies is in contact: loads and supports open all gaps."""
 
 
+class FileWarning(Warning):
+    """Something in a file has no effect, or may be meant in another way; the message has the file and the line."""
+
+
 class CasesWarning(Warning):
     """Some load cases failed or have a warning; the others have their solutions."""
 

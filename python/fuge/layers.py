@@ -78,8 +78,8 @@ class Layers:
 
         It is that of the half-space on which a rigid flat punch of this radius is as stiff, and so a round punch of any
         profile with this contact radius, because it moves on as a flat one. For moduli 1 : 100 .. 100 : 1 and on a
-        rigid base it is exact to 4e-6 for thicknesses from 0.1 radii on, to 1e-3 from 0.03 and to 5e-3 from 0.01 on, and
-        never too large.
+        rigid base it is exact to 4e-6 for thicknesses from 0.1 radii on, to 1e-3 from 0.03 and to 5e-3 from 0.01 on,
+        and never too large.
 
         Parameters
         ----------

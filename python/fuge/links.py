@@ -5,13 +5,13 @@ from __future__ import annotations
 import ctypes
 import math
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._calls import MESSAGE_LENGTH, Handle, Owner, call, end_call, new_handle
+from fuge._calls import MESSAGE_LENGTH, Owner, call, end_call, new_handle
 from fuge._library import function, struct
 from fuge._words import Words
 from fuge.columns import CompressedColumns, compressed, compressed_dense, is_sparse
@@ -20,6 +20,14 @@ from fuge.errors import Status, error
 MemberKind = Literal["tension_only", "compression_only"]
 
 _KINDS = Words("kind", MemberKind)
+
+
+class _Row(NamedTuple):
+    """By how much degrees of freedom open a link, and the distance of its stops."""
+
+    dof: NDArray[np.intc]
+    normal: NDArray[np.float64]
+    play: float
 
 
 class Links(Owner):
@@ -40,11 +48,13 @@ class Links(Owner):
 
     _message_function = "fuge_links_message"
 
-    def __init__(self, handle: Handle | None = None, names: Sequence[str] = ()) -> None:
-        if handle is None:
-            handle = new_handle("links", "fuge_links_create", "fuge_links_free")
-        self._handle = handle
-        self._names = list(names)
+    def __init__(self) -> None:
+        self._handle = new_handle("links", "fuge_links_create", "fuge_links_free")
+        self._names: list[str] = []
+        self._rows: list[_Row] = []
+
+    def __repr__(self) -> str:
+        return f"<Links: {listed(self._names) or 'none'}>"
 
     @property
     def count(self) -> int:
@@ -96,7 +106,9 @@ class Links(Owner):
         degrees, along = _axes("dof", dof), _components("direction", direction)
         _arrays.check_shape("direction", along.shape, degrees.shape)
         law = _law(gap, play, compliance, limit, limit_upper)
-        self._add("fuge_links_add_support", name, degrees.size, degrees, along, ctypes.byref(law))
+        values = degrees.size, degrees, along, ctypes.byref(law)
+        self._add("fuge_links_add_support", name, *values)
+        self._rows.append(_Row(degrees, _unit(along), law.play))
 
     def add_gap(
         self,
@@ -119,7 +131,9 @@ class Links(Owner):
         _arrays.check_shape("dof_b", second.shape, first.shape)
         _arrays.check_shape("direction", along.shape, first.shape)
         law = _law(gap, play, compliance, limit, limit_upper)
-        self._add("fuge_links_add_gap", name, first.size, first, second, along, ctypes.byref(law))
+        values = first.size, first, second, along, ctypes.byref(law)
+        self._add("fuge_links_add_gap", name, *values)
+        self._rows.append(_Row(np.r_[second, first], np.r_[_unit(along), -_unit(along)], law.play))
 
     def add_member(
         self,
@@ -170,6 +184,8 @@ class Links(Owner):
         setattr(member, "yield", _arrays.number("yield_force", yield_force))
         values = first.size, first, second, place_a, place_b, ctypes.byref(member)
         self._add("fuge_links_add_member", name, *values)
+        along = _unit(place_b - place_a) * (1 if kind == "tension_only" else -1)
+        self._rows.append(_Row(np.r_[first, second], np.r_[along, -along], math.inf))
 
     @property
     def gap(self) -> NDArray[np.float64]:
@@ -203,13 +219,26 @@ class Links(Owner):
             code = function("fuge_links_describe")(
                 pointer, u.size, u, dimensions, nodes, places, degrees, message, MESSAGE_LENGTH + 1
             )
-            end_call(code, lambda: message.value.decode(errors="replace"))
-        return message.value.decode(errors="replace")
+            end_call(code, lambda: message.value.decode(errors="surrogateescape"))
+        return message.value.decode(errors="surrogateescape")
+
+    def _contact(self) -> tuple[NDArray[np.intc], NDArray[np.float64]]:
+        """Degrees of freedom and normals of all links, as :meth:`Body.set_contact` takes them."""
+        width = max((row.dof.size for row in self._rows), default=0)
+        dof, normal = np.full((self.count, width), -1, dtype=np.intc), np.zeros((self.count, width))
+        for k, row in enumerate(self._rows):
+            dof[k, : row.dof.size], normal[k, : row.dof.size] = row.dof, row.normal
+        return dof, normal
+
+    def _play(self) -> NDArray[np.float64] | None:
+        """Distances of the stops, if any link has two."""
+        play = np.array([row.play for row in self._rows])
+        return play if np.isfinite(play).any() else None
 
     def _add(self, add: str, name: str | None, *arguments: Any) -> None:
         """Call a function that adds a link, and remember its name."""
-        self._call(add, *arguments, None if name is None else name.encode())
-        self._names.append(f"link {len(self._names) + 1}" if name is None else name)
+        self._call(add, *arguments, None if name is None else name.encode(errors="surrogateescape"))
+        self._names.append(name if name and name.strip() else f"link {len(self._names) + 1}")
 
 
 def remove_member(
@@ -268,6 +297,21 @@ def remove_member(
         return without
     changed = CompressedColumns(matrix.shape, matrix.column, matrix.row, value)
     return changed if isinstance(stiffness, CompressedColumns) else changed.tocsc()
+
+
+def listed(names: Sequence[str], most: int = 8) -> str:
+    """Names one after the other; of many the first ones and the number of the others."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more
+
+
+def _unit(direction: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A direction whose translations, the first three components, have length 1."""
+    unit = direction.copy()
+    if np.any(unit[:3]):
+        unit[:3] /= np.abs(unit[:3]).max()
+        unit[:3] /= np.linalg.norm(unit[:3])
+    return unit
 
 
 def _axes(name: str, dof: ArrayLike) -> NDArray[np.intc]:

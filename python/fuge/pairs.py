@@ -40,6 +40,10 @@ class Surface:
     face: ArrayLike
     dof: ArrayLike | None = None
 
+    def __repr__(self) -> str:
+        rigid = ", rigid" if self.dof is None else ""
+        return f"<Surface: {len(np.asarray(self.node))} nodes, {len(np.asarray(self.face))} faces{rigid}>"
+
 
 def surface_arguments(name: str, surface: Surface) -> list[Any]:
     """The arguments dimensions, nodes, node, most, faces, face, dof of a surface."""
@@ -100,6 +104,9 @@ class ContactPairs(Owner):
     def __init__(self) -> None:
         self._handle = new_handle("contact pairs", "fuge_pairs_create", "fuge_pairs_free")
         self._keep(0, 0, 0, 0)
+
+    def __repr__(self) -> str:
+        return f"<ContactPairs: {self.gap.size} points, {len(self.unpaired)} nodes without an opposite face>"
 
     def find(
         self,

@@ -60,6 +60,9 @@ class Path:
     state: NDArray[np.intc]
     contacts: NDArray[np.intc]
 
+    def __repr__(self) -> str:
+        return f"<Path: {self.point.size} entries, parameter {self.parameter[0]:.6g} to {self.parameter[-1]:.6g}>"
+
 
 def collect_path(n: int, m: int, follow: Callable[..., None]) -> Path:
     """Call ``follow(capacity, parameter, .., entries)``, and once more if there are more entries than expected."""

@@ -6,7 +6,7 @@ import ctypes
 import weakref
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import Any, Callable, ContextManager, Iterator, Literal, Mapping
+from typing import Any, Callable, ContextManager, Iterator, Literal, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,7 +16,7 @@ from fuge._calls import MESSAGE_LENGTH, Owner, end_call, interruptible, new_hand
 from fuge._library import function, struct
 from fuge._messages import in_python
 from fuge._words import Words
-from fuge.cases import Cases
+from fuge.cases import Cases, checked_names, warn_of_cases
 from fuge.cells import known_cells
 from fuge.contact import Contact, Derivative, History, Info, info_of, no_solver
 from fuge.design import Gradients, WantedContact
@@ -118,7 +118,13 @@ class Solver(Owner):
         arguments = [read.pointer, ctypes.byref(options)]
         self._handle = new_handle("solver", "fuge_solver_new", "fuge_solver_free", *arguments, needs=[read])
         self._found: weakref.ref[Contact] | None = None
+        # What load cases change: gaps and plays; for each motion, whether it is prescribed, and its value.
+        self._gaps: tuple[NDArray[np.float64] | None, NDArray[np.float64] | None] = None, None
+        self._motions: list[tuple[bool, float]] = []
         self.set_progress(progress)
+
+    def __repr__(self) -> str:
+        return f"<Solver: {self.n} points, {self.mode_count} motions, {self.operator!r}>"
 
     @property
     def n(self) -> int:
@@ -160,6 +166,7 @@ class Solver(Owner):
         upper = None if gap_upper is None else self._points("gap_upper", gap_upper)
         shapes = {"gap": shape, "gap_upper": shape if gap_upper is None else np.shape(gap_upper)}
         self._call("fuge_set_gap", values, upper, shapes=shapes)
+        self._gaps = values.copy(), None if upper is None else upper.copy()
         self._shape = shape
         self._shapes = {"point": shape}
 
@@ -216,10 +223,12 @@ class Solver(Owner):
     def set_load(self, load: float) -> None:
         """Let the bodies approach each other by one translation, under a load that is not negative; force."""
         self._call("fuge_set_load", _arrays.number("load", load))
+        self._motions = [(False, float(load))]
 
     def set_approach(self, approach: float) -> None:
         """Prescribe by how much the bodies approach each other; length. The load is then a result."""
         self._call("fuge_set_approach", _arrays.number("approach", approach))
+        self._motions = [(True, float(approach))]
 
     def set_modes(self, modes: ArrayLike, resultant: ArrayLike) -> None:
         """Let the bodies move by several rigid motions, all free.
@@ -238,14 +247,15 @@ class Solver(Owner):
         matrix = _arrays.columns("modes", found.reshape(self.n, m), (self.n, m))
         forces = _arrays.vector("resultant", resultant, m)
         self._call("fuge_set_modes", m, matrix, forces, shapes={"point": found.shape[:-1]})
+        self._motions = [(False, force) for force in forces.tolist()]
 
     def set_motion(self, mode: int, motion: float) -> None:
         """Prescribe one of the motions, which count from 0, or change its value."""
-        self._call("fuge_set_motion", _arrays.integer("mode", mode), _arrays.number("motion", motion))
+        self._set_motion(_arrays.integer("mode", mode), True, _arrays.number("motion", motion))
 
     def set_resultant(self, mode: int, resultant: float) -> None:
         """Let a motion be free under a resultant of either sign, or change the resultant."""
-        self._call("fuge_set_resultant", _arrays.integer("mode", mode), _arrays.number("resultant", resultant))
+        self._set_motion(_arrays.integer("mode", mode), False, _arrays.number("resultant", resultant))
 
     def set_motion_stiffness(self, mode: int, stiffness: float) -> None:
         """Put one of the motions on a spring, which takes its part of the resultant; 0: no spring.
@@ -254,6 +264,10 @@ class Solver(Owner):
         """
         values = _arrays.integer("mode", mode), _arrays.number("stiffness", stiffness)
         self._call("fuge_set_motion_stiffness", *values)
+
+    def _set_motion(self, mode: int, prescribed: bool, value: float) -> None:
+        self._call("fuge_set_motion" if prescribed else "fuge_set_resultant", mode, value)
+        self._motions[mode] = prescribed, value
 
     @property
     def mode_count(self) -> int:
@@ -292,19 +306,29 @@ class Solver(Owner):
             Modes depend on each other.
         LimitError, UnsupportedError, CallbackError, CancelledError
         """
+        contact, code = self._solve()
+        end_call(code, lambda: contact.message)
+        if code == 0 and contact.message:
+            warn(GridWarning(f"{contact.message}; if they do, ignore fuge.GridWarning (module warnings)", Status.DONE))
+        return contact
+
+    def _solve(self) -> tuple[Contact, int]:
+        """The solution and the status of the call, which is no error."""
         with interruptible(), self._reading(), self._handle.use() as pointer:
             self._found = None
             code = function("fuge_solve")(pointer)
             message = in_python(self._read_message(pointer), self._shapes)
-            # Before the warning, which the caller may turn into an exception.
-            contact = self._contact(pointer, message) if code >= 0 else None
-            end_call(code, lambda: message)
-        assert contact is not None
-        if code == 0 and message:
-            warn(GridWarning(f"{message}; if they do, ignore fuge.GridWarning (module warnings)", Status.DONE))
-        return contact
+            end_call(min(code, 0), lambda: message)
+            return self._contact(pointer, message), code
 
-    def solve_cases(self, gap: ArrayLike | None = None, load: ArrayLike | None = None) -> Cases:
+    def solve_cases(
+        self,
+        gap: ArrayLike | None = None,
+        load: ArrayLike | None = None,
+        *,
+        names: Sequence[str] | None = None,
+        prove: bool = False,
+    ) -> Cases:
         """Solve load cases that differ in gaps and loads only, each as :meth:`solve` would, but in less time.
 
         Parameters
@@ -315,6 +339,11 @@ class Solver(Owner):
         load : array_like, shape (cases, m), or (cases,) if m = 1, optional
             Resultants of the motions, and motions that are prescribed. Without it those of the problem. One of both
             is needed.
+        names : sequence of str, optional
+            Of the cases, for messages and tables; otherwise 'load case 0' and so on.
+        prove : bool
+            Bound the errors of all forces, gaps and motions too, `proof` of the result, by :meth:`prove`: each case is
+            solved once more by itself, from its contact set.
 
         Returns
         -------
@@ -325,6 +354,8 @@ class Solver(Owner):
         -----
         CasesWarning
             Some cases failed or have a warning; see `status` and `message` of the result.
+        NotProvedWarning
+            Bounds of some cases are infinite.
 
         Raises
         ------
@@ -334,12 +365,14 @@ class Solver(Owner):
             A shape does not fit, or there is no case.
         CancelledError
         """
-        cases, code, message = self._solve_cases(gap, load)
-        end_call(code, lambda: message)
+        cases = self._solve_cases(gap, load, names, prove)
+        warn_of_cases(cases)
         return cases
 
-    def _solve_cases(self, gap: ArrayLike | None, load: ArrayLike | None) -> tuple[Cases, int, str]:
-        """The solutions of load cases, the status of the call, which is no error, and its message."""
+    def _solve_cases(
+        self, gap: ArrayLike | None, load: ArrayLike | None, names: Sequence[str] | None, prove: bool
+    ) -> Cases:
+        """The solutions of load cases, without warnings."""
         m = self.mode_count
         gaps = None if gap is None else self._case_gaps(_arrays.array("gap", gap))
         loads = None if load is None else _arrays.array("load", load)
@@ -349,6 +382,7 @@ class Solver(Owner):
         if not sizes or sizes[0] != sizes[-1]:
             raise error(Status.ERR_SIZE, "load cases need gap or load, or both with a row for each case")
         number = sizes[0]
+        called = checked_names([f"load case {k}" for k in range(number)] if names is None else names, number)
         self._found = None
         force, found = np.full((number, self.n), np.nan), np.full((number, self.n), np.nan)
         motion, status = np.full((number, m), np.nan), np.zeros(number, dtype=np.intc)
@@ -357,8 +391,7 @@ class Solver(Owner):
         with interruptible(), self._reading(), self._handle.use() as pointer:
             code = function("fuge_solve_cases")(pointer, number, gaps, loads, force, found, motion, status)
             message = in_python(self._read_message(pointer), self._shapes)
-            if code < 0:
-                end_call(code, lambda: message)
+            end_call(min(code, 0), lambda: message)
             text = ctypes.create_string_buffer(MESSAGE_LENGTH + 1)
             for k in range(number):
                 report = struct("fuge_info")
@@ -369,7 +402,40 @@ class Solver(Owner):
                 messages.append(in_python(text.value.decode(errors="replace"), self._shapes))
         shape = (number, *self._shape)
         results = force.reshape(shape), found.reshape(shape), motion, state.reshape(shape), status
-        return Cases(*results, tuple(infos), tuple(messages)), code, message
+        cases = Cases(*results, tuple(infos), tuple(messages), names=called)
+        return replace(cases, proof=self._prove_cases(cases, gaps, loads)) if prove else cases
+
+    def _prove_cases(
+        self, cases: Cases, gaps: NDArray[np.float64] | None, loads: NDArray[np.float64] | None
+    ) -> tuple[Proof | None, ...]:
+        """Bounds for each case, whose row becomes the solution that they are of; the problem remains as it was."""
+        before = self._gaps[0], [value for _, value in self._motions]
+        proofs: list[Proof | None] = []
+        try:
+            for k, status in enumerate(cases.status):
+                if status < 0:
+                    proofs.append(None)
+                    continue
+                self._pose(None if gaps is None else gaps[k], None if loads is None else loads[k].tolist())
+                contact, _ = self._solve()
+                cases.force[k], cases.gap[k], cases.motion[k] = contact.force, contact.gap, contact.motion
+                cases.state[k] = contact.state
+                proofs.append(self._proof(contact)[0])
+        finally:
+            self._pose(*before)
+        return tuple(proofs)
+
+    def _pose(self, gap: NDArray[np.float64] | None, values: Sequence[float] | None) -> None:
+        """Set gaps and values of the motions, those of a load case, if they are given."""
+        if gap is not None:
+            self._call("fuge_set_gap", gap, self._gaps[1])
+        for mode, value in enumerate(values or ()):
+            self._set_motion(mode, self._motions[mode][0], value)
+
+    def _take_links(self, gap: NDArray[np.float64], play: NDArray[np.float64] | None) -> None:
+        """Know the problem that the library has posed of links, all of whose motions are free."""
+        self._found = None
+        self._gaps, self._motions = (gap, play), [(False, 0.0)] * self.mode_count
 
     def _case_gaps(self, gap: NDArray[Any]) -> NDArray[np.float64]:
         grid = self.operator.grid
@@ -586,6 +652,12 @@ class Solver(Owner):
 
     def _prove(self, contact: Contact | None) -> Proof:
         """The proof of `contact`, which must be the last solution, or of the last solution."""
+        proof, code = self._proof(contact)
+        end_call(code, lambda: proof.message)
+        return proof
+
+    def _proof(self, contact: Contact | None) -> tuple[Proof, int]:
+        """The proof and the status of the call, which is no error."""
         with self._alone(contact) as (pointer, m):
             force, proved = np.empty(self._shape), np.empty(self._shape, dtype=np.intc)
             force_bound, gap_bound, motion_bound = np.empty(self._shape), np.empty(self._shape), np.empty(m)
@@ -593,9 +665,9 @@ class Solver(Owner):
             message = in_python(self._read_message(pointer), self._shapes)
             if code >= 0:
                 self._get("fuge_get_force", pointer, force)
-            end_call(code, lambda: message)
+            end_call(min(code, 0), lambda: message)
         largest = range_of_largest(force, force_bound)
-        return Proof(force_bound, gap_bound, motion_bound, proved != 0, largest, message)
+        return Proof(force_bound, gap_bound, motion_bound, proved != 0, largest, message), code
 
     def history(self) -> History:
         """Steps of the tableau, kept if the solver was made with ``keep_history=True``."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from fuge.columns import CompressedColumns
 from fuge.errors import InputError, Status
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class StiffnessFile(CompressedColumns):
     """A stiffness matrix, for :class:`Body`, and the names of its rows.
 
@@ -26,6 +27,11 @@ class StiffnessFile(CompressedColumns):
     node: NDArray[np.intc]
     direction: NDArray[np.intc]
 
+    @cached_property
+    def row_names(self) -> RowNames:
+        """Its rows by their names; InputError as of :class:`RowNames`."""
+        return RowNames(self)
+
 
 class RowNames:
     """Rows of a matrix by node and direction.
@@ -33,10 +39,14 @@ class RowNames:
     Raises
     ------
     InputError
-        Rows have no names, or two the same one.
+        Rows have no names, or two the same one; or there are not as many names as rows.
     """
 
     def __init__(self, stiffness: StiffnessFile) -> None:
+        sizes = np.size(stiffness.node), np.size(stiffness.direction), stiffness.shape[0]
+        if len(set(sizes)) > 1:
+            reason = f"node has {sizes[0]} value(s), direction {sizes[1]}, for {sizes[2]} row(s): both name each row"
+            raise InputError(reason, Status.ERR_SIZE)
         names = list(zip(stiffness.node.tolist(), stiffness.direction.tolist()))
         self._rows = {name: row for row, name in enumerate(names)}
         if len(self._rows) == len(names):

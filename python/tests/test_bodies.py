@@ -108,6 +108,20 @@ class Patch(unittest.TestCase):
         bodies.set_rigid_modes(1, fuge.rigid_modes(self.upper.node))
         self.check(bodies.solve(sparse=False))
 
+    def test_reactions(self):
+        bodies = self.bodies(self.lower.stiffness, self.upper.stiffness)
+        contact = bodies.solve(sparse=False)
+        np.testing.assert_allclose(contact.reaction[0], PRESSURE * np.array([0.25, 0.5, 0.25, 0]), atol=1e-12)
+        self.assertEqual(contact.reaction[1].size, 0)
+        # Nodes of the contact are held too: the supports have part of the contact forces.
+        bodies.fix(1, [0, 1, 3])
+        contact = bodies.solve(sparse=False)
+        pressed = contact.force.sum()
+        np.testing.assert_allclose(contact.reaction[0][:3].sum(), pressed, rtol=1e-11)
+        np.testing.assert_allclose(contact.reaction[1][1:].sum(), PRESSURE - pressed, rtol=1e-11)
+        self.assertLess(pressed, 0.9 * PRESSURE)
+        self.assertRegex(repr(contact), "^<BodiesContact: 2 bodies, .* points in contact, residual")
+
     def test_errors(self):
         bodies = self.bodies(self.lower.stiffness, self.upper.stiffness)
         with self.assertRaises(fuge.InputError) as caught:

@@ -66,7 +66,8 @@ class LayerStress(unittest.TestCase):
         np.testing.assert_allclose(fuge.layered_halfspace_displacement(FILM, *cells, x, y, 0.5), grid, atol=1e-10)
         row = ball()[4]
         grid = fuge.layered_halfplane_stress_grid(FILM, 0.2, row, [0.0, 0.3])
-        np.testing.assert_allclose(fuge.layered_halfplane_stress(FILM, i, 0.2, row, i, [[0.0], [0.3]]), grid, atol=1e-10)
+        points = fuge.layered_halfplane_stress(FILM, i, 0.2, row, i, [[0.0], [0.3]])
+        np.testing.assert_allclose(points, grid, atol=1e-10)
         grid = fuge.layered_halfplane_displacement_grid(FILM, 0.2, row, 0.3)[0]
         np.testing.assert_allclose(fuge.layered_halfplane_displacement(FILM, i, 0.2, row, i, 0.3), grid, atol=1e-10)
 

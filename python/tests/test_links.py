@@ -103,7 +103,7 @@ class Structures(unittest.TestCase):
         np.testing.assert_allclose(cases.displacement[0], [-0.5, -4.5], atol=1e-13)
         self.assertTrue(np.isnan(cases.displacement[1]).all())
         body, _ = cable()
-        with self.assertWarnsRegex(fuge.CasesWarning, "1 of 2 load cases are refused; load case 0"):
+        with self.assertWarnsRegex(fuge.CasesWarning, "1 of 2 load cases failed, 0 have a warning; load case 0"):
             cases = body.solve_cases([[np.nan, 0.0], [-6.0, -8.0]])
         self.assertEqual(cases.status.tolist(), [fuge.Status.ERR_NOT_FINITE, 0])
         self.assertEqual(cases.info[0].status, fuge.Status.ERR_NOT_FINITE)

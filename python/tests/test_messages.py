@@ -35,7 +35,7 @@ class Words(unittest.TestCase):
         for message, wanted in [
             ("use FUGE_CENTRE or FUGE_MEAN", "use 'centre' or 'mean'"),
             ("use FUGE_PLANE_STRAIN", "use 'strain'"),
-            ("use FUGE_LEVEL_PLANE", "use 'plane'"),
+            ("use FUGE_PERIODIC_Y", "use 'periodic_y'"),
             ("(FUGE_WITH_FFTW=OFF)", "(FUGE_WITH_FFTW=OFF)"),
             ("call fuge_set_gap before fuge_solve", "call set_gap before solve"),
             ("call fuge_bodies_join first", "call join first"),

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator
+from bisect import bisect_left
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from pathlib import PurePath
 
-from fuge.formats.text import PathLike, Place, TextFile, read_text, refusal
+from fuge.errors import FileError
+from fuge.formats.keyword_names import KEYWORDS
+from fuge.formats.text import PathLike, Place, Reason, quoted, read_text, refusal
 
 # Most files that include each other in turn, and most inclusions in all: files that include others twice double them.
 _MOST_FILES, _MOST_INCLUDED = 16, 10000
@@ -21,8 +24,8 @@ _ITEM = re.compile(r'((?:"[^"]*"?|[^",])*)(,?)')
 class Block:
     """A keyword with its parameters, and the data lines below it, each with its place; `lines` are not blank.
 
-    Keywords and the names of parameters are in upper case without blanks, as the programs compare them. Data of an
-    included file, and those below its end, belong to the keyword that stands before them.
+    The keyword is written out; the names of parameters are in upper case without blanks, as the file has them: see
+    :meth:`named`. Data of an included file, and those below its end, belong to the keyword that stands before them.
     """
 
     keyword: str
@@ -34,34 +37,61 @@ class Block:
 
     def where(self, index: int) -> Place:
         """The place of data line `index`, from 0."""
-        first, path, offset = next(run for run in reversed(self._runs) if run[0] <= index)
+        _, path, offset = self._runs[bisect_left(self._runs, (index + 1,)) - 1]
         return Place(path, index + offset)
 
-    def add(self, path: str, number: int, line: str) -> None:
-        """Append a data line."""
-        index = len(self.lines)
-        if not self._runs or self._runs[-1][1:] != (path, number - index):
-            self._runs.append((index, path, number - index))
-        self.lines.append(line)
+    def refuse(self, reason: object, index: int | None = None) -> FileError:
+        """The error that the keyword line, or data line `index`, from 0, cannot be read."""
+        return refusal(self.place if index is None else self.where(index), reason)
+
+    def add(self, path: str, number: int, lines: list[str]) -> None:
+        """Append data lines, the first of which has a number in its file."""
+        self._runs.append((len(self.lines), path, number - len(self.lines)))
+        self.lines += lines
+
+    def named(self, names: Collection[str]) -> dict[str, str]:
+        """The parameters by their full names; refused is one that is none of these names, and one given twice."""
+        found: dict[str, str] = {}
+        for text, value in self.parameters.items():
+            try:
+                name = complete(text, names)
+            except Reason as reason:
+                raise self.refuse(f"*{self.keyword}: {reason}") from None
+            if name is None:
+                raise self.refuse(f"*{self.keyword}: the parameter {quoted(text)} is not read")
+            if name in found:
+                raise self.refuse(f"*{self.keyword}: {name} is given twice")
+            found[name] = value
+        return found
 
 
 def read_blocks(path: PathLike, paths: list[str] | None = None) -> Iterator[Block]:
     """All keywords of an input file and of the files that it includes, in their order.
 
     Paths of included files begin at the folder of the first one. `paths` gets the path of each file once. Data lines
-    before the first keyword belong to a block with the keyword ''.
+    before the first keyword belong to a block with the keyword ''. Abbreviated keywords are written out; refused is
+    what is no keyword, or abbreviates several.
     """
-    lines = _Lines(path, [] if paths is None else paths)
+    paths = [] if paths is None else paths
+    folder = os.path.dirname(os.fspath(path))
+    files = [_File(os.fspath(path), paths)]
+    included = 0
     block: Block | None = None
-    for place, line in lines:
-        if not line.startswith("*"):
-            if block is None:
-                block = Block("", {}, place)
-            block.add(place.path, place.line, line)
+    while files:
+        file = files[-1]
+        number, data = file.take_data()
+        if data:
+            block = block or Block("", {}, Place(file.path, number))
+            block.add(file.path, number, data)
+        line = file.take_line()
+        if line is None:
+            files.pop()
+        if not line or line.startswith("**"):
             continue
-        keyword = _parsed(place, line, lines)
+        keyword = _parsed(line, file)
         if keyword.keyword == "INCLUDE":
-            lines.include(keyword)
+            included += 1
+            files.append(_File(_included_path(keyword, folder, len(files), included), paths))
             continue
         if block is not None:
             yield block
@@ -70,79 +100,102 @@ def read_blocks(path: PathLike, paths: list[str] | None = None) -> Iterator[Bloc
         yield block
 
 
-class _Lines(Iterable[tuple[Place, str]]):
-    """The lines of a file and of those that it includes which are neither blank nor comments, without outer blanks."""
+class _File:
+    """The lines of a file, without outer blanks."""
 
-    def __init__(self, path: PathLike, paths: list[str]) -> None:
-        self._paths = paths
-        self._folder = os.path.dirname(os.fspath(path))
-        self._included = 0
-        self._open: list[Iterator[tuple[int, str]]] = []
-        self._files: list[TextFile] = []
-        self._enter(os.fspath(path))
+    def __init__(self, path: str, paths: list[str]) -> None:
+        self.path = path
+        self._lines = [line.strip(" \t\r") for line in read_text(path).lines]
+        # Blank lines, comments and keywords stand between the data.
+        self._stops = [k for k, line in enumerate(self._lines) if not line or line[0] == "*"]
+        self._stops.append(len(self._lines))
+        self._next = 0
+        if path not in paths:
+            paths.append(path)
 
-    def _enter(self, path: str) -> None:
-        file = read_text(path)
-        self._files.append(file)
-        self._open.append(iter(enumerate(file.lines, 1)))
-        if path not in self._paths:
-            self._paths.append(path)
+    @property
+    def place(self) -> Place:
+        """That of the last line taken."""
+        return Place(self.path, self._next)
 
-    def __iter__(self) -> Iterator[tuple[Place, str]]:
-        while self._open:
-            # The file may change between two lines, by an inclusion.
-            for number, line in self._open[-1]:
-                stripped = line.strip(" \t\r")
-                if stripped and not stripped.startswith("**"):
-                    yield Place(self._files[-1].path, number), stripped
-                    break
-            else:
-                self._open.pop()
-                self._files.pop()
+    def take_data(self) -> tuple[int, list[str]]:
+        """The data lines that come next, and the number of the first."""
+        first, self._next = self._next, self._stops[bisect_left(self._stops, self._next)]
+        return first + 1, self._lines[first : self._next]
 
-    def below(self) -> Iterator[tuple[Place, str]]:
-        """The lines that are left in the present file."""
-        path = self._files[-1].path
-        for number, line in self._open[-1]:
-            stripped = line.strip(" \t\r")
-            if stripped and not stripped.startswith("**"):
-                yield Place(path, number), stripped
-
-    def include(self, keyword: Block) -> None:
-        path = keyword.parameters.get("INPUT", "")
-        if not path:
-            raise refusal(keyword.place, "*INCLUDE needs INPUT = and a path")
-        if len(self._open) == _MOST_FILES:
-            reason = f"more than {_MOST_FILES} files include each other: does one include itself?"
-            raise refusal(keyword.place, reason)
-        if self._included == _MOST_INCLUDED:
-            reason = f"more than {_MOST_INCLUDED} files are included: do they include others twice?"
-            raise refusal(keyword.place, reason)
-        self._included += 1
-        self._enter(path if PurePath(path).is_absolute() else os.path.join(self._folder, path))
+    def take_line(self) -> str | None:
+        """The next line, whatever it is; None behind the last one."""
+        if self._next == len(self._lines):
+            return None
+        self._next += 1
+        return self._lines[self._next - 1]
 
 
-def _parsed(place: Place, line: str, lines: _Lines) -> Block:
+def _parsed(line: str, file: _File) -> Block:
     """The keyword of a line, with the lines below it as long as a line ends with a comma."""
+    place = file.place
     items, continued = split_items(line)
     while continued:
-        following = next(lines.below(), None)
+        following = file.take_line()
         if following is None:
             break
-        if following[1].startswith("*"):
-            raise refusal(following[0], "the keyword line above ends with a comma, and goes on with another keyword")
-        more, continued = split_items(following[1])
+        if not following or following.startswith("**"):
+            continue
+        if following.startswith("*"):
+            reason = "the keyword line above ends with a comma, and goes on with another keyword"
+            raise refusal(file.place, reason)
+        more, continued = split_items(following)
         items += more
-    parameters = {}
-    for item in items[1:]:
-        if item:
-            name, _, value = item.partition("=")
-            parameters[squeezed(name)] = unquoted(value)
-    return Block(squeezed(items[0])[1:], parameters, place)
+    text = squeezed(items[0])[1:]
+    try:
+        keyword = complete(text, KEYWORDS)
+    except Reason as reason:
+        raise refusal(place, reason) from None
+    if keyword is None:
+        raise refusal(place, f"{quoted(f'*{text}')} is no keyword of Abaqus or CalculiX")
+    block = Block(keyword, {}, place)
+    for item in filter(None, items[1:]):
+        name, _, value = item.partition("=")
+        if block.parameters.setdefault(squeezed(name), unquoted(value)) != unquoted(value):
+            raise block.refuse(f"*{keyword}: {squeezed(name)} is given twice")
+    return block
+
+
+def _included_path(keyword: Block, folder: str, depth: int, included: int) -> str:
+    path = keyword.named(["INPUT"]).get("INPUT", "")
+    if not path:
+        raise keyword.refuse("*INCLUDE needs INPUT = and a path")
+    if depth == _MOST_FILES:
+        raise keyword.refuse(f"more than {_MOST_FILES} files include each other: does one include itself?")
+    if included > _MOST_INCLUDED:
+        raise keyword.refuse(f"more than {_MOST_INCLUDED} files are included: do they include others twice?")
+    return path if PurePath(path).is_absolute() else os.path.join(folder, path)
+
+
+def complete(text: str, words: Collection[str]) -> str | None:
+    """The word that a text is or abbreviates, as Abaqus lets keywords, parameters and their values be; None if none.
+
+    A word with which all others begin that are meant is taken: ELEM is ELEMENT, although there is ELEMENTOUTPUT.
+
+    Raises
+    ------
+    Reason
+        The text begins several words.
+    """
+    if text in words:
+        return text
+    found = sorted((word for word in words if text and word.startswith(text)), key=lambda word: (len(word), word))
+    for other in found:
+        if not other.startswith(found[0]):
+            raise Reason(f"{quoted(text)} may be {found[0]} or {other}: write it out")
+    return found[0] if found else None
 
 
 def split_items(line: str) -> tuple[list[str], bool]:
     """What stands between the commas of a line, without outer blanks; and whether the line ends with a comma."""
+    if '"' not in line:
+        items = [item.strip() for item in line.split(",")]
+        return (items, False) if items[-1] else (items[:-1], len(items) > 1)
     items = []
     position, comma = 0, ","
     while comma and position < len(line):
@@ -162,11 +215,3 @@ def unquoted(text: str) -> str:
     """Without blanks at its ends and without quotes."""
     stripped = text.strip()
     return stripped[1:-1] if len(stripped) > 1 and stripped[0] == stripped[-1] == '"' else stripped
-
-
-def abbreviates(text: str, word: str, least: int = 3) -> bool:
-    """Whether text is a word or its beginning, as Abaqus lets keywords, parameters and their values be abbreviated."""
-    return text == word or (least <= len(text) and word.startswith(text))
-
-
-

@@ -6,6 +6,8 @@ import math
 import os
 import re
 import stat
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import NamedTuple, Union
 
@@ -42,6 +44,15 @@ def refusal(place: Place | PathLike, reason: object) -> FileError:
     """The error that a file, or a line of it, cannot be read for this reason."""
     where = place if isinstance(place, Place) else quoted_path(place)
     return FileError(f"{where}: {reason}", Status.ERR_FILE)
+
+
+@contextmanager
+def located(place: Place | PathLike, name: str = "") -> Iterator[None]:
+    """Make a FileError of a Reason: it has this place, and begins with a name."""
+    try:
+        yield
+    except Reason as reason:
+        raise refusal(place, f"{name}: {reason}" if name else reason) from None
 
 
 def quoted_path(path: PathLike) -> str:
@@ -134,3 +145,26 @@ def label(text: str, name: str, least: int = 1, most: int = LARGEST_LABEL) -> in
     if not least <= number <= most:
         raise Reason(f"{name} {quoted(text)} is outside {least} .. {most}")
     return number
+
+
+def write_text(path: PathLike, parts: Iterable[str]) -> None:
+    """Create a file, or replace it.
+
+    Raises
+    ------
+    FileError
+        It cannot be opened, or not be written to its end; it is then empty.
+    """
+    if not os.fspath(path).strip():
+        raise FileError("the path is blank: pass the path of a file", Status.ERR_FILE)
+    opened = False
+    try:
+        with open(path, "w", encoding="utf-8", newline="") as file:
+            opened = True
+            file.writelines(parts)
+    except (OSError, ValueError) as failure:
+        cause = getattr(failure, "strerror", None) or failure
+        if opened and os.path.isfile(path):
+            os.truncate(path, 0)
+        verb = "written" if opened else "opened"
+        raise FileError(f"{quoted_path(path)} cannot be {verb}: {cause}", Status.ERR_FILE) from None

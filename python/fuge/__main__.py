@@ -1,0 +1,7 @@
+"""``python -m fuge`` is the command ``fuge``."""
+
+import sys
+
+from fuge.command import main
+
+sys.exit(main())
