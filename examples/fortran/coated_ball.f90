@@ -14,7 +14,7 @@ program coated_ball
   use example_output, only: create_file
   use example_verdict, only: verdict
   use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_hertz_contact, fuge_hertz_ellipse, fuge_info, &
-    fuge_interface_stress, fuge_layered_body, fuge_layered_halfspace_interfaces, fuge_layered_ring_matrix, &
+    fuge_interface_stress, fuge_layered_area_field, fuge_layered_body, fuge_layered_ring_matrix, &
     fuge_problem, fuge_solution, fuge_solve_dense, fuge_solver, FUGE_FREE
   implicit none
 
@@ -148,11 +148,14 @@ contains
     integer, intent(in) :: cells
     type(fuge_hertz_contact), intent(in) :: bare
     type(contact_of_ball), intent(inout) :: found
-    type(fuge_interface_stress) :: peaks(bodies%interfaces() + 1)
+    type(fuge_layered_area_field) :: field
+    type(fuge_interface_stress), allocatable :: peaks(:)
     type(fuge_info) :: info
     integer :: cell
 
-    call fuge_layered_halfspace_interfaces(bodies, cells, cells, h, h, force, FUGE_FREE, peaks, info)
+    call field%set_grid(bodies, cells, cells, h, h, force, FUGE_FREE, info)
+    call require(info, 'field')
+    call field%interfaces(peaks, info)
     call require(info, 'stresses')
     found%surface = peaks(1)%tension_above/bare%peak_pressure
     cell = peaks(1)%cell_above - 1

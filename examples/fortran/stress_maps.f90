@@ -1,14 +1,16 @@
 !> Pictures of stresses for the example `stress`: points in rows, and tables of them.
 module stress_maps
   use example_output, only: create_file
-  use fuge, only: dp => fuge_dp, fuge_info
+  use fuge, only: dp => fuge_dp, fuge_field, fuge_info
   implicit none
   private
 
-  public :: in_plane_shear, require, write_map
+  public :: in_plane_shear, require, write_halves, write_map
 
   !> The program's argument that names the folder for the tables.
   integer, parameter, public :: FOLDER_ARGUMENT = 2
+  !> The components xx, zz and xz of a tensor.
+  integer, parameter, public :: IN_PLANE(3) = [1, 3, 5]
 
   !> A rectangle of the plane of x and z, from x = left to right and from the surface to z = bottom, as columns x rows
   !> of equal pixels; points are their centres, along x first.
@@ -16,27 +18,39 @@ module stress_maps
     real(dp) :: left = 0.0_dp, right = 0.0_dp, bottom = 0.0_dp
     integer :: columns = 0, rows = 0
   contains
-    procedure :: x
-    procedure :: z
+    procedure :: places
   end type picture
 
 contains
 
-  pure function x(self)
+  pure function places(self)
     class(picture), intent(in) :: self
-    real(dp) :: x(self%columns*self%rows)
+    real(dp) :: places(3, self%columns*self%rows)
     integer :: i, j
 
-    x = [((self%left + (self%right - self%left)*(i - 0.5_dp)/self%columns, i=1, self%columns), j=1, self%rows)]
-  end function x
+    places(1, :) = [((self%left + (self%right - self%left)*(i - 0.5_dp)/self%columns, i=1, self%columns), &
+                     j=1, self%rows)]
+    places(2, :) = 0.0_dp
+    places(3, :) = [((self%bottom*(j - 0.5_dp)/self%rows, i=1, self%columns), j=1, self%rows)]
+  end function places
 
-  pure function z(self)
-    class(picture), intent(in) :: self
-    real(dp) :: z(self%columns*self%rows)
-    integer :: i, j
+  !> The shear stress in the plane: for x > 0 in the field `right`, for x < 0 the mirror image of that in `left`.
+  subroutine write_halves(name, left, right, half)
+    character(len=*), intent(in) :: name
+    class(fuge_field), intent(in) :: left, right
+    type(picture), intent(in) :: half
+    real(dp), allocatable :: tensor(:, :), shear(:, :)
+    type(fuge_info) :: info
 
-    z = [((self%bottom*(j - 0.5_dp)/self%rows, i=1, self%columns), j=1, self%rows)]
-  end function z
+    allocate (tensor(6, half%columns*half%rows), shear(2*half%columns, half%rows))
+    call left%stress(half%places(), tensor, info)
+    call require(info)
+    shear(half%columns:1:-1, :) = reshape(in_plane_shear(tensor(IN_PLANE, :)), [half%columns, half%rows])
+    call right%stress(half%places(), tensor, info)
+    call require(info)
+    shear(half%columns + 1:, :) = reshape(in_plane_shear(tensor(IN_PLANE, :)), [half%columns, half%rows])
+    call write_map(name, reshape(shear, [size(shear)]), size(shear, 1))
+  end subroutine write_halves
 
   !> A row of numbers for each row of pixels, from the surface down.
   subroutine write_map(name, values, columns)
@@ -52,12 +66,12 @@ contains
     close (file)
   end subroutine write_map
 
-  !> Half the difference of the principal stresses in the plane of x and z, from xx, zz, xz.
-  elemental function in_plane_shear(xx, zz, xz) result(shear)
-    real(dp), intent(in) :: xx, zz, xz
-    real(dp) :: shear
+  !> Half the difference of the principal stresses in the plane of x and z, from xx, zz, xz of each point.
+  pure function in_plane_shear(stress) result(shear)
+    real(dp), intent(in) :: stress(:, :)
+    real(dp) :: shear(size(stress, 2))
 
-    shear = hypot(0.5_dp*(xx - zz), xz)
+    shear = hypot(0.5_dp*(stress(1, :) - stress(2, :)), stress(3, :))
   end function in_plane_shear
 
   subroutine require(info)

@@ -2,7 +2,7 @@
 module stress_rough
   use example_output, only: create_file
   use example_verdict, only: verdict
-  use fuge, only: dp => fuge_dp, fuge_halfspace_operator, fuge_halfspace_stress_grid, fuge_info, fuge_options, &
+  use fuge, only: dp => fuge_dp, fuge_halfspace_field, fuge_halfspace_operator, fuge_info, fuge_options, &
     fuge_problem, fuge_solution, fuge_solver, fuge_von_mises, fuge_write_results, fuge_write_volume, &
     FUGE_MEAN, FUGE_PERIODIC
   use stress_maps, only: require, write_map, FOLDER_ARGUMENT
@@ -12,7 +12,7 @@ module stress_rough
 
   public :: press_rough_surface
 
-  real(dp), parameter :: POISSON = 0.3_dp
+  real(dp), parameter :: POISSON = 0.3_dp, YOUNG = 1.0_dp - POISSON**2
   !> p/(E* g) with the root mean square gradient g.
   real(dp), parameter :: PRESSURE = 0.1_dp
   type(fuge_options), parameter :: OPTIONS = fuge_options(tolerance=1.0e-8_dp)
@@ -58,8 +58,11 @@ contains
     real(dp), allocatable :: stress(:, :, :), mises(:), largest(:), volume(:, :)
     real(dp) :: depth(DEPTHS), depth_of_largest
     integer :: centre(2), j
+    type(fuge_halfspace_field) :: field
     type(fuge_info) :: info
 
+    call field%set_grid(cells, cells, spacing, spacing, force, FUGE_PERIODIC, YOUNG, POISSON, info)
+    call require(info)
     allocate (stress(6, cells**2, 1), mises(cells**2), largest(cells**2), volume((cells/2)**2, DEPTHS))
     depth = [(spacing*(j - 0.5_dp), j=1, DEPTHS)]
     centre = maxloc(reshape(force, [cells, cells]))
@@ -67,8 +70,7 @@ contains
     depth_of_largest = 0.0_dp
     print '(a19,a18,a12,a17,a12)', 'depth/shortest wave', 'mean of zz', 'lowest zz', 'mean von Mises', 'largest'
     do j = 1, DEPTHS
-      call fuge_halfspace_stress_grid(cells, cells, spacing, spacing, force, FUGE_PERIODIC, POISSON, depth(j:j), &
-                                      stress, info)
+      call field%grid_stress(depth(j:j), stress, info)
       call require(info)
       mises = fuge_von_mises(stress(:, :, 1))
       volume(:, j) = window(mises, cells, centre)
