@@ -6,7 +6,7 @@
 !> measured at some of the points. All sides alternate and the least time of each counts, because other programs may
 !> run.
 program bound_halfspace_stress
-  use fuge, only: dp => fuge_dp, fuge_halfspace_stress, fuge_info
+  use fuge, only: dp => fuge_dp, fuge_halfspace_field, fuge_info
   use fuge_point_forces, only: add_force_stresses
   use fuge_rectangle_field, only: new_rectangle_rules, rectangle_rules, rectangle_stress
   implicit none
@@ -60,9 +60,12 @@ contains
   subroutine measure(name)
     character(len=*), intent(in) :: name
     real(dp) :: stress(6, size(pz)), sums(SOME, 6), plain(6, FEW), start, forces, cells, time, error
+    type(fuge_halfspace_field) :: field
     type(fuge_info) :: info
     integer :: k, point
 
+    call field%set_rectangles(x, y, width, width, force, 1.0_dp, POISSON, info)
+    if (info%failed()) error stop 1
     forces = huge(forces)
     cells = huge(cells)
     time = huge(time)
@@ -72,7 +75,7 @@ contains
       call add_force_stresses(x + 0.01_dp, y, force, POISSON, px(:SOME), py(:SOME), pz(:SOME), sums)
       forces = min(forces, (seconds() - start)*real(size(pz)/SOME, dp))
       start = seconds()
-      call fuge_halfspace_stress(x, y, width, width, force, POISSON, px, py, pz, stress, info)
+      call field%stress(transpose(reshape([px, py, pz], [size(px), 3])), stress, info)
       time = min(time, seconds() - start)
       if (info%failed()) error stop 1
       start = seconds()

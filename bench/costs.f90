@@ -12,9 +12,8 @@ program costs
   use bench_problems, only: bench_problem, add_matrix, contact_problem, make_known, uniform_edges
   use bench_surfaces, only: bench_surface, make_surface, set_operator
   use bench_watch, only: stopwatch
-  use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_halfplane_operator, &
-    fuge_halfplane_peak, fuge_halfplane_stress, fuge_halfplane_stress_grid, fuge_halfspace_operator, &
-    fuge_halfspace_peak, fuge_halfspace_stress, fuge_halfspace_stress_grid, fuge_info, fuge_interval, fuge_load_path, &
+  use fuge, only: dp => fuge_dp, fuge_contact_edges, fuge_dense_operator, fuge_field, fuge_halfplane_field, &
+    fuge_halfplane_operator, fuge_halfspace_field, fuge_halfspace_operator, fuge_info, fuge_interval, fuge_load_path, &
     fuge_operator, fuge_path, fuge_problem, fuge_solution, fuge_solver, fuge_stress_peak, FUGE_FREE, FUGE_MEAN, &
     FUGE_MEASURE_VON_MISES, FUGE_PLANE_STRAIN
   implicit none
@@ -184,82 +183,77 @@ contains
     real(dp), intent(in) :: force(:)
     real(dp), intent(inout) :: time(:)
     type(fuge_interval), allocatable :: intervals(:)
-    type(fuge_stress_peak) :: peak
+    type(fuge_halfplane_field) :: field
     type(fuge_info) :: info
-    type(stopwatch) :: edges, at_points, on_grid, largest
-    real(dp) :: px(POINTS), pz(POINTS), stress(3, POINTS)
-    real(dp), allocatable :: below(:, :, :)
+    type(stopwatch) :: edges
 
-    call scatter(problem%form%a, px, pz)
-    allocate (below(3, size(force), DEPTHS))
     do while (.not. edges%enough())
       call edges%start()
       call fuge_contact_edges(problem%x, problem%width, force, FUGE_MEAN, intervals, info)
       call edges%stop()
       call check(info)
-      call at_points%start()
-      call fuge_halfplane_stress(problem%x, problem%width, force, FUGE_MEAN, px, pz, stress, info)
-      call at_points%stop()
-      call check(info)
-      if (on_grid%runs < 3) then
-        call on_grid%start()
-        call fuge_halfplane_stress_grid(problem%width(1), force, FUGE_MEAN, FUGE_FREE, depths_of(problem%form%a), below, &
-                                        info)
-        call on_grid%stop()
-        call check(info)
-        call largest%start()
-        call fuge_halfplane_peak(problem%x, problem%width, force, FUGE_MEAN, FUGE_PLANE_STRAIN, NU, &
-                                 FUGE_MEASURE_VON_MISES, peak, info)
-        call largest%stop()
-        call check(info)
-      end if
     end do
-    time([EDGES_ROW, POINTS_ROW, GRID_ROW, PEAK_ROW]) = [edges%best, at_points%best, on_grid%best, largest%best]
+    time(EDGES_ROW) = edges%best
+    call field%set_grid(problem%width(1), force, FUGE_MEAN, FUGE_FREE, 1.0_dp, NU, FUGE_PLANE_STRAIN, info)
+    call check(info)
+    call measure_field(field, size(force), problem%form%a, [-problem%x(1), 0.0_dp], time)
   end subroutine measure_line_results
 
   subroutine measure_area_stresses(surface, force, time)
     type(bench_surface), intent(in) :: surface
     real(dp), intent(in) :: force(:)
     real(dp), intent(inout) :: time(:)
+    type(fuge_halfspace_field) :: field
+    type(fuge_info) :: info
+
+    call field%set_grid(surface%n, surface%n, surface%cell(), surface%cell(), force, FUGE_FREE, 1.0_dp, NU, info)
+    call check(info)
+    call measure_field(field, size(force), surface%contact_radius, spread(0.5_dp*(surface%n - 1)*surface%cell(), 1, 2), &
+                       time)
+  end subroutine measure_area_stresses
+
+  !> Stresses below a contact of half width `a` about `middle`, counted from the first cell of the grid.
+  subroutine measure_field(field, cells, a, middle, time)
+    class(fuge_field), intent(in) :: field
+    integer, intent(in) :: cells
+    real(dp), intent(in) :: a, middle(2)
+    real(dp), intent(inout) :: time(:)
     type(fuge_stress_peak) :: peak
     type(fuge_info) :: info
     type(stopwatch) :: at_points, on_grid, largest
-    real(dp) :: px(POINTS), pz(POINTS), stress(6, POINTS)
-    real(dp), allocatable :: below(:, :, :), x(:), y(:), width(:)
-    integer :: i, j
+    real(dp) :: place(3, POINTS), tensor(6, POINTS)
+    real(dp), allocatable :: below(:, :, :)
 
-    associate (n => surface%n, h => surface%cell())
-      allocate (x, source=[((h*(i - 0.5_dp*(n + 1)), i=1, n), j=1, n)])
-      allocate (y, source=[((h*(j - 0.5_dp*(n + 1)), i=1, n), j=1, n)])
-      allocate (width(n*n), source=h)
-    end associate
-    call scatter(surface%contact_radius, px, pz)
-    call at_points%start()
-    call fuge_halfspace_stress(x, y, width, width, force, NU, px, px, pz, stress, info)
-    call at_points%stop()
-    call check(info)
-    allocate (below(6, size(force), DEPTHS))
-    call on_grid%start()
-    call fuge_halfspace_stress_grid(surface%n, surface%n, surface%cell(), surface%cell(), force, FUGE_FREE, NU, &
-                                    depths_of(surface%contact_radius), below, info)
-    call on_grid%stop()
-    call check(info)
-    call largest%start()
-    call fuge_halfspace_peak(x, y, width, width, force, NU, FUGE_MEASURE_VON_MISES, peak, info)
-    call largest%stop()
-    call check(info)
+    allocate (below(6, cells, DEPTHS))
+    place = scattered(a, middle)
+    do while (.not. at_points%enough() .and. largest%runs < 3)
+      call at_points%start()
+      call field%stress(place, tensor, info)
+      call at_points%stop()
+      call check(info)
+      call on_grid%start()
+      call field%grid_stress(depths_of(a), below, info)
+      call on_grid%stop()
+      call check(info)
+      call largest%start()
+      call field%largest(FUGE_MEASURE_VON_MISES, peak, info)
+      call largest%stop()
+      call check(info)
+    end do
     time([POINTS_ROW, GRID_ROW, PEAK_ROW]) = [at_points%best, on_grid%best, largest%best]
-  end subroutine measure_area_stresses
+  end subroutine measure_field
 
-  !> Points below a contact of half width `a`, to the depth 2 a.
-  pure subroutine scatter(a, px, pz)
-    real(dp), intent(in) :: a
-    real(dp), intent(out) :: px(:), pz(:)
+  !> Points below a contact of half width `a` about `middle`, to the depth 2 a.
+  pure function scattered(a, middle) result(place)
+    real(dp), intent(in) :: a, middle(2)
+    real(dp) :: place(3, POINTS)
     integer :: k
 
-    px = [(a*(2.0_dp*modulo(0.6180339887_dp*k, 1.0_dp) - 1.0_dp), k=1, size(px))]
-    pz = [(2.0_dp*a*real(k, dp)/real(size(pz), dp), k=1, size(pz))]
-  end subroutine scatter
+    do k = 1, POINTS
+      place(:2, k) = middle + a*(2.0_dp*modulo(0.6180339887_dp*k, 1.0_dp) - 1.0_dp)
+      place(3, k) = 2.0_dp*a*real(k, dp)/real(POINTS, dp)
+    end do
+  end function scattered
 
   pure function depths_of(a) result(depth)
     real(dp), intent(in) :: a

@@ -4,12 +4,11 @@
 !>
 !> Half-planes of SIDE**2 cells and half-spaces of SIDE x SIDE (default: 316 at ten depths and 1024 at one), free and
 !> periodic. The errors are the largest differences, at some cells, from the sum over all cells of the influence of one,
-!> in more digits, relative to the largest value at that depth, and those of the procedures for points, with the time
-!> they take for the compared cells.
+!> in more digits, relative to the largest value at that depth, and those of the stresses at points, with the time that
+!> these take for the compared cells. Fields are set before.
 program stress_grid
   use bench_watch, only: stopwatch
-  use fuge, only: dp => fuge_dp, fuge_halfplane_displacement_grid, fuge_halfplane_stress, fuge_halfplane_stress_grid, &
-    fuge_halfspace_displacement_grid, fuge_halfspace_stress, fuge_halfspace_stress_grid, fuge_info, FUGE_CENTRE, &
+  use fuge, only: dp => fuge_dp, fuge_field, fuge_halfplane_field, fuge_halfspace_field, fuge_info, FUGE_CENTRE, &
     FUGE_FREE, FUGE_HAT, FUGE_PERIODIC, FUGE_PERIODIC_X, FUGE_PLANE_STRAIN
   implicit none
 
@@ -62,51 +61,54 @@ contains
     character(len=*), intent(in) :: name
     integer, intent(in) :: element, boundary
     real(dp), intent(in) :: force(:), depth(:)
+    type(fuge_halfplane_field) :: field, cell
     type(fuge_info) :: info
-    type(stopwatch) :: stresses, displacements
-    real(dp), allocatable :: stress(:, :, :), displacement(:, :, :)
 
-    allocate (stress(3, size(force), size(depth)), displacement(2, size(force), size(depth)))
-    do while (.not. stresses%enough())
-      call stresses%start()
-      call fuge_halfplane_stress_grid(1.0_dp, force, element, boundary, depth, stress, info)
-      call stresses%stop()
-      if (info%failed()) error stop 'stresses failed'
-      call displacements%start()
-      call fuge_halfplane_displacement_grid(1.0_dp, force, element, boundary, YOUNG, NU, FUGE_PLANE_STRAIN, depth, &
-                                            displacement, info)
-      call displacements%stop()
-      if (info%failed()) error stop 'displacements failed'
-    end do
-    call print_line(name//', stresses', size(force), size(depth), stresses%best)
-    if (boundary == FUGE_FREE) call compare_halfplane(element, force, depth, stress)
-    call print_line(name//', displacements', size(force), size(depth), displacements%best)
+    call field%set_grid(1.0_dp, force, element, boundary, YOUNG, NU, FUGE_PLANE_STRAIN, info)
+    if (.not. info%failed()) call cell%set_grid(1.0_dp, [1.0_dp], element, FUGE_FREE, YOUNG, NU, FUGE_PLANE_STRAIN, info)
+    if (info%failed()) error stop 'no field'
+    call time_field(name, field, cell, size(force), boundary == FUGE_FREE, force, depth)
   end subroutine time_halfplane
 
   subroutine time_halfspace(name, side, boundary, force, depth)
     character(len=*), intent(in) :: name
     integer, intent(in) :: side, boundary
     real(dp), intent(in) :: force(:), depth(:)
+    type(fuge_halfspace_field) :: field, cell
+    type(fuge_info) :: info
+
+    call field%set_grid(side, side, 1.0_dp, 1.0_dp, force, boundary, YOUNG, NU, info)
+    if (.not. info%failed()) call cell%set_grid(1, 1, 1.0_dp, 1.0_dp, [1.0_dp], FUGE_FREE, YOUNG, NU, info)
+    if (info%failed()) error stop 'no field'
+    call time_field(name, field, cell, side, boundary == FUGE_FREE, force, depth)
+  end subroutine time_halfspace
+
+  !> `cell`: the field below one cell under a unit force; `side`: cells in a row of the grid.
+  subroutine time_field(name, field, cell, side, is_free, force, depth)
+    character(len=*), intent(in) :: name
+    class(fuge_field), intent(in) :: field, cell
+    integer, intent(in) :: side
+    logical, intent(in) :: is_free
+    real(dp), intent(in) :: force(:), depth(:)
     type(fuge_info) :: info
     type(stopwatch) :: stresses, displacements
-    real(dp), allocatable :: stress(:, :, :), displacement(:, :, :)
+    real(dp), allocatable :: tensor(:, :, :), u(:, :, :)
 
-    allocate (stress(6, size(force), size(depth)), displacement(3, size(force), size(depth)))
+    allocate (tensor(6, size(force), size(depth)), u(3, size(force), size(depth)))
     do while (.not. stresses%enough())
       call stresses%start()
-      call fuge_halfspace_stress_grid(side, side, 1.0_dp, 1.0_dp, force, boundary, NU, depth, stress, info)
+      call field%grid_stress(depth, tensor, info)
       call stresses%stop()
       if (info%failed()) error stop 'stresses failed'
       call displacements%start()
-      call fuge_halfspace_displacement_grid(side, side, 1.0_dp, 1.0_dp, force, boundary, YOUNG, NU, depth, &
-                                            displacement, info)
+      call field%grid_displacement(depth, u, info)
       call displacements%stop()
       if (info%failed()) error stop 'displacements failed'
     end do
     call print_line(name//', stresses', size(force), size(depth), stresses%best)
-    if (boundary == FUGE_FREE) call compare_halfspace(side, force, depth, stress)
+    if (is_free) call compare(field, cell, side, force, depth, tensor)
     call print_line(name//', displacements', size(force), size(depth), displacements%best)
-  end subroutine time_halfspace
+  end subroutine time_field
 
   subroutine print_line(name, cells, depths, seconds)
     character(len=*), intent(in) :: name
@@ -126,93 +128,43 @@ contains
     print '(a42, 2es9.1, f9.3)', label, of_grid, of_points, seconds
   end subroutine print_errors
 
-  subroutine compare_halfplane(element, force, depth, stress)
-    integer, intent(in) :: element
-    real(dp), intent(in) :: force(:), depth(:), stress(:, :, :)
-    type(fuge_info) :: info
-    type(stopwatch) :: watch
-    real(dp), allocatable :: x(:), width(:), table(:, :), level(:), points(:, :)
-    real(dp) :: exact(3), of_grid, of_points, largest
-    integer :: cell, j, k, n
-
-    n = size(force)
-    allocate (x(n), width(n), table(3, n), level(n), points(3, SAMPLES))
-    x = [(real(k - 1, dp), k=1, n)]
-    width = 1.0_dp
-    of_grid = 0.0_dp
-    of_points = 0.0_dp
-    do k = 1, size(depth)
-      level = depth(k)
-      call fuge_halfplane_stress([0.0_dp], [1.0_dp], [1.0_dp], element, x, level, table, info, .false.)
-      call watch%start()
-      call fuge_halfplane_stress(x, width, force, element, x(sampled_cells(n)), level(:SAMPLES), points, info, .false.)
-      call watch%stop()
-      if (info%failed()) error stop 'points failed'
-      largest = maxval(abs(stress(:, :, k)))
-      do j = 1, SAMPLES
-        cell = sampled_cell(n, j)
-        exact = halfplane_sum(table, force, cell)
-        of_grid = max(of_grid, maxval(abs(stress(:, cell, k) - exact))/largest)
-        of_points = max(of_points, maxval(abs(points(:, j) - exact))/largest)
-      end do
-    end do
-    call print_errors(of_grid, of_points, watch%spent)
-  end subroutine compare_halfplane
-
-  pure function halfplane_sum(table, force, cell) result(stress)
-    real(dp), intent(in) :: table(:, :), force(:)
-    integer, intent(in) :: cell
-    real(dp) :: stress(3)
-    real(long) :: total(3)
-    integer :: k
-
-    total = 0.0_long
-    do k = 1, size(force)
-      total = total + real(force(k), long)*table(:, abs(cell - k) + 1)*[1, 1, sign(1, cell - k)]
-    end do
-    stress = real(total, dp)
-  end function halfplane_sum
-
-  subroutine compare_halfspace(side, force, depth, stress)
+  subroutine compare(field, cell, side, force, depth, tensor)
+    class(fuge_field), intent(in) :: field, cell
     integer, intent(in) :: side
-    real(dp), intent(in) :: force(:), depth(:), stress(:, :, :)
+    real(dp), intent(in) :: force(:), depth(:), tensor(:, :, :)
     type(fuge_info) :: info
     type(stopwatch) :: watch
-    real(dp), allocatable :: x(:), y(:), width(:), table(:, :), level(:), points(:, :)
-    real(dp) :: exact(6), of_grid, of_points, largest
-    integer :: cell, j, k, n
+    real(dp), allocatable :: place(:, :), table(:, :)
+    real(dp) :: exact(6), points(6, SAMPLES), of_grid, of_points, largest
+    integer :: j, k, n
 
     n = size(force)
-    allocate (x(n), y(n), width(n), table(6, n), level(n), points(6, SAMPLES))
-    x = [(real(modulo(k - 1, side), dp), k=1, n)]
-    y = [(real((k - 1)/side, dp), k=1, n)]
-    width = 1.0_dp
+    allocate (place(3, n), table(6, n))
+    place(1, :) = [(real(modulo(k - 1, side), dp), k=1, n)]
+    place(2, :) = [(real((k - 1)/side, dp), k=1, n)]
     of_grid = 0.0_dp
     of_points = 0.0_dp
     do k = 1, size(depth)
-      level = depth(k)
-      call fuge_halfspace_stress([0.0_dp], [0.0_dp], [1.0_dp], [1.0_dp], [1.0_dp], NU, x, y, level, table, info, &
-                                 .false., .false.)
+      place(3, :) = depth(k)
+      call cell%stress(place, table, info)
       call watch%start()
-      call fuge_halfspace_stress(x, y, width, width, force, NU, x(sampled_cells(n)), y(sampled_cells(n)), &
-                                 level(:SAMPLES), points, info, .false., .false.)
+      call field%stress(place(:, sampled_cells(n)), points, info)
       call watch%stop()
       if (info%failed()) error stop 'points failed'
-      largest = maxval(abs(stress(:, :, k)))
+      largest = maxval(abs(tensor(:, :, k)))
       do j = 1, SAMPLES
-        cell = sampled_cell(n, j)
-        exact = halfspace_sum(side, table, force, cell)
-        of_grid = max(of_grid, maxval(abs(stress(:, cell, k) - exact))/largest)
+        exact = sum_of_cells(side, table, force, sampled_cell(n, j))
+        of_grid = max(of_grid, maxval(abs(tensor(:, sampled_cell(n, j), k) - exact))/largest)
         of_points = max(of_points, maxval(abs(points(:, j) - exact))/largest)
       end do
     end do
     call print_errors(of_grid, of_points, watch%spent)
-  end subroutine compare_halfspace
+  end subroutine compare
 
-  pure function halfspace_sum(side, table, force, cell) result(stress)
+  pure function sum_of_cells(side, table, force, cell) result(tensor)
     integer, intent(in) :: side, cell
     real(dp), intent(in) :: table(:, :), force(:)
-    real(dp) :: stress(6)
+    real(dp) :: tensor(6)
     real(long) :: total(6)
     integer :: dx, dy, k
 
@@ -223,8 +175,8 @@ contains
       total = total + real(force(k), long)*table(:, 1 + abs(dx) + side*abs(dy)) &
               *[1, 1, 1, sign(1, dy), sign(1, dx), sign(1, dx)*sign(1, dy)]
     end do
-    stress = real(total, dp)
-  end function halfspace_sum
+    tensor = real(total, dp)
+  end function sum_of_cells
 
   pure function sampled_cell(n, sample) result(cell)
     integer, intent(in) :: n, sample

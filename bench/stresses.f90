@@ -5,18 +5,17 @@
 !> Prints Markdown tables to standard output: a cylinder on a half-plane and a sphere (nu = 0.3) on a half-space, from
 !> contacts that the library solves itself on n (and n x n) cells, against Hertz's stresses. The error is the largest
 !> one of any component over the largest pressure p0, in 0.2 a <= z <= 3 a; the time is that of a point, least of some
-!> repetitions, the set-up included. CPU time, one thread.
+!> repetitions, of a field that is set. CPU time, one thread.
 program stresses
-  use fuge, only: dp => fuge_dp, fuge_halfplane_operator, fuge_halfplane_stress, fuge_halfplane_stress_grid, &
-    fuge_halfspace_operator, fuge_halfspace_stress, fuge_halfspace_stress_grid, fuge_info, fuge_operator, &
-    fuge_polynomial_profile, fuge_problem, fuge_round_contact, fuge_round_stress, fuge_smooth_contact, &
-    fuge_smooth_stress, fuge_solution, fuge_solve_round_punch, fuge_solve_smooth_punch, fuge_solver, FUGE_FREE, &
-    FUGE_MEAN
+  use fuge, only: dp => fuge_dp, fuge_field, fuge_halfplane_field, fuge_halfplane_operator, fuge_halfspace_field, &
+    fuge_halfspace_operator, fuge_info, fuge_operator, fuge_polynomial_profile, fuge_problem, fuge_round_contact, &
+    fuge_round_punch_field, fuge_smooth_contact, fuge_smooth_punch_field, fuge_solution, fuge_solve_round_punch, &
+    fuge_solve_smooth_punch, fuge_solver, FUGE_FREE, FUGE_MEAN, FUGE_PLANE_STRAIN
   implicit none
 
   integer, parameter :: REPETITIONS = 3, POINTS = 10000, DEPTHS = 10
   !> Half-width of the grid and of the contact; the modulus is 1.
-  real(dp), parameter :: SIDE = 1.5_dp, A = 1.0_dp, NU = 0.3_dp, PI = acos(-1.0_dp)
+  real(dp), parameter :: SIDE = 1.5_dp, A = 1.0_dp, NU = 0.3_dp, YOUNG = 1.0_dp - NU**2, PI = acos(-1.0_dp)
   !> Depths of the points, over a.
   real(dp), parameter :: SHALLOW = 0.2_dp, DEEP = 3.0_dp
 
@@ -41,130 +40,120 @@ contains
   subroutine measure_line(n)
     integer, intent(in) :: n
     type(fuge_halfplane_operator) :: surface
+    type(fuge_halfplane_field) :: field
     type(fuge_info) :: info
-    real(dp), allocatable :: x(:), width(:), force(:), px(:), pz(:), found(:, :), grid(:, :, :)
-    real(dp) :: depth(DEPTHS), start, time(2), error(2), spacing
+    real(dp) :: x(n), force(n), spacing
+    character(len=24) :: name
     integer :: k
 
     spacing = 2.0_dp*SIDE/real(n, dp)
-    allocate (x(n), source=[((k - 0.5_dp)*spacing - SIDE, k=1, n)])
-    allocate (width(n), source=spacing)
+    x = [((k - 0.5_dp)*spacing - SIDE, k=1, n)]
     call surface%set(n, spacing, 1.0_dp, info, element=FUGE_MEAN)
     call check(info)
-    allocate (force(n))
     ! Of a cylinder of radius 1 with half-width a; mean gaps of the cells.
     call solve(surface, 0.5_dp*(x**2 + spacing**2/12.0_dp), PI*A**2/4.0_dp, force)
-    allocate (found(3, POINTS), px(POINTS), pz(POINTS), grid(3, n, DEPTHS))
-    call scatter(px, pz)
-    depth = [(SHALLOW + (DEEP - SHALLOW)*real(k - 1, dp)/real(DEPTHS - 1, dp), k=1, DEPTHS)]
-    time = huge(time)
-    do k = 1, REPETITIONS
-      start = seconds()
-      call fuge_halfplane_stress(x, width, force, FUGE_MEAN, px, pz, found, info)
-      time(1) = min(time(1), (seconds() - start)/real(POINTS, dp))
-      call check(info)
-      start = seconds()
-      call fuge_halfplane_stress_grid(spacing, force, FUGE_MEAN, FUGE_FREE, depth, grid, info)
-      time(2) = min(time(2), (seconds() - start)/real(n*DEPTHS, dp))
-      call check(info)
-    end do
-    error(1) = line_error(px, pz, found)
-    error(2) = 0.0_dp
-    do k = 1, DEPTHS
-      error(2) = max(error(2), line_error(x, spread(depth(k), 1, n), grid(:, :, k)))
-    end do
-    print '(a,i0,2(a,es8.1,a,f9.3),a)', '| ', n, (' | ', error(k), ' | ', 1.0e6_dp*time(k), k=1, 2), ' |'
+    call field%set_grid(spacing, force, FUGE_MEAN, FUGE_FREE, YOUNG, NU, FUGE_PLANE_STRAIN, info)
+    call check(info)
+    write (name, '(i0)') n
+    call measure(name, field, scattered(), .false., x, 0.0_dp*x)
   end subroutine measure_line
 
   subroutine measure_smooth()
     type(fuge_polynomial_profile) :: cylinder
     type(fuge_smooth_contact) :: contact
+    type(fuge_smooth_punch_field) :: field
     type(fuge_info) :: info
-    real(dp), allocatable :: px(:), pz(:), found(:, :)
-    real(dp) :: start, time
-    integer :: k
 
-    allocate (px(POINTS), pz(POINTS), found(3, POINTS))
     cylinder%lower = -2.0_dp
     cylinder%upper = 2.0_dp
     cylinder%coefficients = [0.0_dp, 0.0_dp, 0.5_dp]
     call fuge_solve_smooth_punch(cylinder, 1.0_dp, PI*A**2/4.0_dp, contact, info)
     call check(info)
-    call scatter(px, pz)
-    time = huge(time)
-    do k = 1, REPETITIONS
-      start = seconds()
-      call fuge_smooth_stress(contact, px, pz, found, info)
-      time = min(time, (seconds() - start)/real(POINTS, dp))
-    end do
+    call field%set(contact, YOUNG, NU, FUGE_PLANE_STRAIN, info)
     call check(info)
-    print '(a,es8.1,a,f9.3,a)', '| smooth punch | ', line_error(px, pz, found), ' | ', &
-      1.0e6_dp*time, ' | | |'
+    call measure('smooth punch', field, scattered(), .false.)
   end subroutine measure_smooth
 
   subroutine measure_area(n)
     integer, intent(in) :: n
     type(fuge_halfspace_operator) :: surface
+    type(fuge_halfspace_field) :: field
     type(fuge_info) :: info
-    real(dp), allocatable :: x(:), y(:), width(:), force(:), px(:), py(:), pz(:), found(:, :), grid(:, :, :)
-    real(dp) :: depth(DEPTHS), start, time(2), error(2), spacing
+    real(dp) :: x(n*n), y(n*n), force(n*n), spacing
+    real(dp), allocatable :: place(:, :)
+    character(len=24) :: name
     integer :: j, k
 
     spacing = 2.0_dp*SIDE/real(n, dp)
-    allocate (x(n*n), source=[(((k - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)])
-    allocate (y(n*n), source=[(((j - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)])
-    allocate (width(n*n), source=spacing)
+    x = [(((k - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)]
+    y = [(((j - 0.5_dp)*spacing - SIDE, k=1, n), j=1, n)]
     call surface%set(n, n, spacing, spacing, 1.0_dp, info, element=FUGE_MEAN)
     call check(info)
-    allocate (force(n*n))
     call solve(surface, 0.5_dp*(x**2 + y**2 + spacing**2/6.0_dp), 4.0_dp*A**3/3.0_dp, force)
-    allocate (found(6, POINTS), px(POINTS), py(POINTS), pz(POINTS), grid(6, n*n, DEPTHS))
-    call scatter(px, pz)
-    py = px(POINTS:1:-1)
-    depth = [(SHALLOW + (DEEP - SHALLOW)*real(k - 1, dp)/real(DEPTHS - 1, dp), k=1, DEPTHS)]
-    time = huge(time)
-    do k = 1, REPETITIONS
-      start = seconds()
-      call fuge_halfspace_stress(x, y, width, width, force, NU, px, py, pz, found, info)
-      time(1) = min(time(1), (seconds() - start)/real(POINTS, dp))
-      call check(info)
-      start = seconds()
-      call fuge_halfspace_stress_grid(n, n, spacing, spacing, force, FUGE_FREE, NU, depth, grid, info)
-      time(2) = min(time(2), (seconds() - start)/real(n*n*DEPTHS, dp))
-      call check(info)
-    end do
-    error(1) = area_error(px, py, pz, found)
-    error(2) = 0.0_dp
-    do k = 1, DEPTHS
-      error(2) = max(error(2), area_error(x, y, spread(depth(k), 1, n*n), grid(:, :, k)))
-    end do
-    print '(a,i0,a,i0,2(a,es8.1,a,f9.3),a)', '| ', n, ' x ', n, (' | ', error(k), ' | ', 1.0e6_dp*time(k), k=1, 2), ' |'
+    call field%set_grid(n, n, spacing, spacing, force, FUGE_FREE, YOUNG, NU, info)
+    call check(info)
+    allocate (place, source=scattered())
+    place(2, :) = place(1, POINTS:1:-1)
+    write (name, '(i0,a,i0)') n, ' x ', n
+    call measure(name, field, place, .true., x, y)
   end subroutine measure_area
 
   subroutine measure_round()
     type(fuge_round_contact) :: contact
+    type(fuge_round_punch_field) :: field
     type(fuge_info) :: info
-    real(dp), allocatable :: pr(:), pz(:), found(:, :)
-    real(dp) :: start, time, error
+
+    call press_sphere(contact)
+    call field%set(contact, YOUNG, NU, info)
+    call check(info)
+    call measure('round punch', field, abs(scattered()), .true.)
+  end subroutine measure_round
+
+  !> A row of a table. Places and the cells of the grid, `x` and `y`, count from the middle of the contact.
+  subroutine measure(name, field, place, is_round, x, y)
+    character(len=*), intent(in) :: name
+    class(fuge_field), intent(in) :: field
+    real(dp), intent(in) :: place(:, :)
+    logical, intent(in) :: is_round
+    real(dp), intent(in), optional :: x(:), y(:)
+    real(dp) :: asked(3, size(place, 2)), found(6, size(place, 2)), depth(DEPTHS), start, time(2), error(2)
+    real(dp), allocatable :: grid(:, :, :), below(:, :)
+    type(fuge_info) :: info
     integer :: k
 
-    allocate (pr(POINTS), pz(POINTS), found(4, POINTS))
-    call press_sphere(contact)
-    call scatter(pr, pz)
-    pr = abs(pr)
+    asked = place
+    if (present(x)) then
+      allocate (grid(6, size(x), DEPTHS), below(3, size(x)))
+      ! The first cell of a grid is where its field counts from.
+      asked(1, :) = place(1, :) - x(1)
+      asked(2, :) = place(2, :) - y(1)
+    end if
+    depth = [(SHALLOW + (DEEP - SHALLOW)*real(k - 1, dp)/real(DEPTHS - 1, dp), k=1, DEPTHS)]
     time = huge(time)
     do k = 1, REPETITIONS
       start = seconds()
-      call fuge_round_stress(contact, NU, pr, pz, found, info)
-      time = min(time, (seconds() - start)/real(POINTS, dp))
+      call field%stress(asked, found, info)
+      time(1) = min(time(1), (seconds() - start)/real(size(place, 2), dp))
+      call check(info)
+      if (.not. present(x)) cycle
+      start = seconds()
+      call field%grid_stress(depth, grid, info)
+      time(2) = min(time(2), (seconds() - start)/real(size(x)*DEPTHS, dp))
+      call check(info)
     end do
-    call check(info)
-    error = 0.0_dp
-    do k = 1, POINTS
-      error = max(error, maxval(abs(found(:, k)/(2.0_dp*A/PI) - hertz_round(pr(k)/A, pz(k)/A))))
+    error = [largest_error(place, found, is_round), 0.0_dp]
+    if (.not. present(x)) then
+      print '(3a,es8.1,a,f9.3,a)', '| ', trim(name), ' | ', error(1), ' | ', 1.0e6_dp*time(1), ' | | |'
+      return
+    end if
+    below(1, :) = x
+    below(2, :) = y
+    do k = 1, DEPTHS
+      below(3, :) = depth(k)
+      error(2) = max(error(2), largest_error(below, grid(:, :, k), is_round))
     end do
-    print '(a,es8.1,a,f9.3,a)', '| round punch | ', error, ' | ', 1.0e6_dp*time, ' | | |'
-  end subroutine measure_round
+    print '(2a,2(a,es8.1,a,f9.3),a)', '| ', trim(name), (' | ', error(k), ' | ', 1.0e6_dp*time(k), k=1, 2), ' |'
+  end subroutine measure
 
   subroutine press_sphere(contact)
     type(fuge_round_contact), intent(out) :: contact
@@ -195,44 +184,66 @@ contains
   end subroutine solve
 
   !> Points in |x| <= SIDE and SHALLOW <= z <= DEEP, the same in each run.
-  pure subroutine scatter(px, pz)
-    real(dp), intent(out) :: px(:), pz(:)
+  pure function scattered() result(place)
+    real(dp) :: place(3, POINTS)
     integer :: k
 
-    do k = 1, size(px)
-      px(k) = SIDE*(2.0_dp*modulo(real(k, dp)*0.6180339887498949_dp, 1.0_dp) - 1.0_dp)
-      pz(k) = SHALLOW + (DEEP - SHALLOW)*modulo(real(k, dp)*0.7548776662466927_dp, 1.0_dp)
+    do k = 1, POINTS
+      place(1, k) = SIDE*(2.0_dp*modulo(real(k, dp)*0.6180339887498949_dp, 1.0_dp) - 1.0_dp)
+      place(2, k) = 0.0_dp
+      place(3, k) = SHALLOW + (DEEP - SHALLOW)*modulo(real(k, dp)*0.7548776662466927_dp, 1.0_dp)
     end do
-  end subroutine scatter
+  end function scattered
 
-  !> xx, zz, xz under a cylinder, p0 = a/2 (K. L. Johnson, Contact Mechanics, 1985, equation 4.49).
-  pure subroutine hertz_line(px, pz, xx, zz, xz)
-    real(dp), intent(in) :: px, pz
-    real(dp), intent(out) :: xx, zz, xz
-    real(dp) :: half, m, n, share
+  !> The largest error of `found` (6, points) over p0.
+  pure function largest_error(place, found, is_round) result(error)
+    real(dp), intent(in) :: place(:, :), found(:, :)
+    logical, intent(in) :: is_round
+    real(dp) :: error
+    integer :: k
 
+    error = 0.0_dp
+    do k = 1, size(place, 2)
+      if (is_round) then
+        error = max(error, maxval(abs(found(:, k)/(2.0_dp*A/PI) - sphere_stress(place(:, k)))))
+      else
+        error = max(error, maxval(abs(found(:, k)/(0.5_dp*A) - cylinder_stress(place(:, k)))))
+      end if
+    end do
+  end function largest_error
+
+  !> Under a cylinder, over p0 = a/2 (K. L. Johnson, Contact Mechanics, 1985, equation 4.49).
+  pure function cylinder_stress(place) result(tensor)
+    real(dp), intent(in) :: place(3)
+    real(dp) :: tensor(6)
+    real(dp) :: px, pz, half, m, n, share
+
+    px = place(1)
+    pz = place(3)
     half = 0.5_dp*(A**2 - px**2 + pz**2)
     m = sqrt(hypot(half, px*pz) + half)
     n = px*pz/m
     share = (pz**2 + n**2)/(m**2 + n**2)
-    xx = -0.5_dp*(m*(1.0_dp + share) - 2.0_dp*pz)
-    zz = -0.5_dp*m*(1.0_dp - share)
-    xz = -0.5_dp*n*(m**2 - pz**2)/(m**2 + n**2)
-  end subroutine hertz_line
+    tensor = 0.0_dp
+    tensor(1) = -(m*(1.0_dp + share) - 2.0_dp*pz)/A
+    tensor(3) = -m*(1.0_dp - share)/A
+    tensor(2) = NU*(tensor(1) + tensor(3))
+    tensor(5) = -n*(m**2 - pz**2)/(m**2 + n**2)/A
+  end function cylinder_stress
 
-  !> The largest error of `found` (3, points) over p0.
-  pure function line_error(px, pz, found) result(error)
-    real(dp), intent(in) :: px(:), pz(:), found(:, :)
-    real(dp) :: error
-    real(dp) :: exact(3)
-    integer :: k
+  !> Under a sphere, over p0 = 2 a/pi.
+  pure function sphere_stress(place) result(tensor)
+    real(dp), intent(in) :: place(3)
+    real(dp) :: tensor(6)
+    real(dp) :: axial(4), c, s, r
 
-    error = 0.0_dp
-    do k = 1, size(px)
-      call hertz_line(px(k), pz(k), exact(1), exact(2), exact(3))
-      error = max(error, maxval(abs(found(:, k) - exact))/(0.5_dp*A))
-    end do
-  end function line_error
+    r = hypot(place(1), place(2))
+    c = place(1)/max(r, tiny(r))
+    s = place(2)/max(r, tiny(r))
+    axial = hertz_round(r/A, place(3)/A)
+    tensor = [axial(1)*c**2 + axial(2)*s**2, axial(1)*s**2 + axial(2)*c**2, axial(3), axial(4)*s, axial(4)*c, &
+              (axial(1) - axial(2))*s*c]
+  end function sphere_stress
 
   !> rr, tt, zz, rz under a sphere, over p0 = 2 a/pi (M. T. Huber, Ann. Phys. 14, 1904).
   !>
@@ -251,25 +262,6 @@ contains
     stress(2) = -(bend + q*(2.0_dp*NU + u*(1.0_dp - NU)/(1.0_dp + u) - angle))
     stress(4) = -r*z**2/(u**2 + z**2)*sqrt(u)/(1.0_dp + u)
   end function hertz_round
-
-  !> The largest error of `found` (6, points) over p0.
-  pure function area_error(px, py, pz, found) result(error)
-    real(dp), intent(in) :: px(:), py(:), pz(:), found(:, :)
-    real(dp) :: error
-    real(dp) :: axial(4), c, s, r
-    integer :: k
-
-    error = 0.0_dp
-    do k = 1, size(px)
-      r = hypot(px(k), py(k))
-      c = px(k)/max(r, tiny(r))
-      s = py(k)/max(r, tiny(r))
-      axial = hertz_round(r/A, pz(k)/A)
-      error = max(error, maxval(abs(found(:, k)/(2.0_dp*A/PI) - &
-        [axial(1)*c**2 + axial(2)*s**2, axial(1)*s**2 + axial(2)*c**2, axial(3), axial(4)*s, axial(4)*c, &
-         (axial(1) - axial(2))*s*c])))
-    end do
-  end function area_error
 
   subroutine check(info)
     type(fuge_info), intent(in) :: info
