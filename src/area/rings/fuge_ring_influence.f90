@@ -11,7 +11,6 @@ module fuge_ring_influence
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_rectangle_checks, only: check_area_modulus
-  use fuge_ring_kernel, only: new_ring_kernel, ring_kernel, ring_mean, ring_value
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_ELEMENT, FUGE_ERR_GRID, FUGE_ERR_OVERFLOW, &
     FUGE_ERR_SIZE, FUGE_ERR_WIDTH
   implicit none
@@ -38,6 +37,7 @@ contains
   !> negative one, or a ring thinner than 1e-7 of its radius, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT, FUGE_ERR_GRID for
   !> FUGE_CENTRE, whose matrix would not be symmetric, FUGE_ERR_OVERFLOW.
   pure subroutine fuge_ring_matrix(radius, e_star, element, alpha, info)
+    use fuge_ring_kernel, only: ring_kernel, ring_mean
     real(dp), intent(in) :: radius(:), e_star
     integer, intent(in) :: element
     real(dp), intent(inout) :: alpha(:, :)
@@ -72,6 +72,7 @@ contains
   !> Errors, displacement untouched: FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH, also for a negative place,
   !> FUGE_ERR_MODULUS, FUGE_ERR_OVERFLOW.
   pure subroutine fuge_ring_displacement(radius, force, e_star, place, displacement, info)
+    use fuge_ring_kernel, only: ring_kernel, ring_value
     real(dp), intent(in) :: radius(:), force(:), e_star, place(:)
     real(dp), intent(inout) :: displacement(:)
     type(fuge_info), intent(out) :: info
@@ -101,6 +102,7 @@ contains
   end subroutine fuge_ring_displacement
 
   pure subroutine start_kernel(kernel, info)
+    use fuge_ring_kernel, only: new_ring_kernel, ring_kernel
     type(ring_kernel), allocatable, intent(out) :: kernel
     type(fuge_info), intent(inout) :: info
     integer :: stat

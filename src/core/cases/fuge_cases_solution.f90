@@ -6,7 +6,6 @@ module fuge_cases_solution
   use fuge_load_cases_type, only: allocate_case_solutions, check_cases, fuge_case_solutions, fuge_load_cases, &
     move_case_solutions, take_case
   use fuge_monitor_type, only: fuge_monitor
-  use fuge_nearest_case, only: case_directions
   use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
@@ -34,6 +33,7 @@ contains
   !> force_error and energy are the largest of any. Errors, `solutions` untouched: FUGE_ERR_SIZE for cases that do not
   !> fit the problem, FUGE_ERR_UNSUPPORTED where ranks share the points, FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED.
   subroutine fuge_solve_cases(solver, operator, problem, cases, solutions, info, options, monitor)
+    use fuge_nearest_case, only: case_directions
     type(fuge_solver), intent(inout) :: solver
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem

@@ -9,16 +9,12 @@
 !> objective in the places of the changes of gaps and loads, and every engine that has derivatives has gradients
 !> (doc/theory.md).
 module fuge_adjoint_solution
-  use fuge_adjoint_weights, only: adjoint_weights, check_weights, set_weights
   use fuge_gradients_type, only: fuge_gradients
   use fuge_kinds, only: dp
-  use fuge_kink_search, only: mark_kinks, warn_of_kinks
-  use fuge_law_gradients, only: displacement_is_lost, find_law_gradients, set_displacement
   use fuge_number_text, only: text
   use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
-  use fuge_problem_modes, only: prescribed_motions, resultants_of
   use fuge_problem_type, only: check_problem, fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_NO_EQUILIBRIUM, &
@@ -49,6 +45,9 @@ contains
   !> those of the product. T. F. Conry and A. Seireg, J. Applied Mechanics 38 (1971), 387-392, design with such
   !> problems.
   subroutine fuge_solve_adjoint(solver, operator, problem, solution, weight, gradients, info)
+    use fuge_adjoint_weights, only: adjoint_weights, check_weights, set_weights
+    use fuge_kink_search, only: warn_of_kinks
+    use fuge_problem_modes, only: prescribed_motions
     class(fuge_solver), intent(in) :: solver
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
@@ -137,6 +136,8 @@ contains
 
   !> The gradients by gaps, loads and limits from the derivative `adjoint`.
   subroutine set_gradients(problem, solution, weights, adjoint, space, gradients)
+    use fuge_adjoint_weights, only: adjoint_weights
+    use fuge_problem_modes, only: prescribed_motions, resultants_of
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution, adjoint
     type(adjoint_weights), intent(in) :: weights
@@ -161,6 +162,7 @@ contains
   !> their digits: there they come from the derivative by the load, by which nothing cancels, and whose products are not
   !> counted. Errors: those of the derivative.
   subroutine restore_load_gradients(solver, operator, weights, space, gradients, info)
+    use fuge_adjoint_weights, only: adjoint_weights
     class(fuge_solver), intent(in) :: solver
     class(fuge_operator), intent(in) :: operator
     type(adjoint_weights), intent(in) :: weights
@@ -189,6 +191,9 @@ contains
   !> The gradients that follow from those by gaps and loads, and points at a kink. Errors: FUGE_ERR_MEMORY, those of the
   !> product.
   subroutine set_law_gradients(operator, problem, solution, weights, threads, space, gradients, info)
+    use fuge_adjoint_weights, only: adjoint_weights
+    use fuge_kink_search, only: mark_kinks
+    use fuge_law_gradients, only: displacement_is_lost, find_law_gradients, set_displacement
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution

@@ -11,7 +11,6 @@ module fuge_wanted_pressure
   use fuge_operator_type, only: fuge_operator
   use fuge_point_law, only: point_law
   use fuge_point_space, only: point_space
-  use fuge_problem_modes, only: add_rigid_displacement, free_translation, resultants_of
   use fuge_problem_type, only: check_problem, copy_problem, fuge_problem
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_GAP, &
     FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_WARN_UNREACHABLE
@@ -47,6 +46,7 @@ contains
   !> FUGE_ERR_NOT_FINITE, FUGE_ERR_GAP for a negative clearance, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, those of the
   !> product.
   subroutine fuge_gap_for_pressure(operator, problem, force, clearance, wanted, info)
+    use fuge_problem_modes, only: resultants_of
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:), clearance
@@ -161,6 +161,7 @@ contains
   !> From displacements (A - datum) f, which wanted%gap has, to gaps g = c - (A + D) f + R q, with the prescribed
   !> motions q, and free ones zero.
   subroutine find_gaps(operator, problem, clearance, space, wanted)
+    use fuge_problem_modes, only: add_rigid_displacement, free_translation
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: clearance

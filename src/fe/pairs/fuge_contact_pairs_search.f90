@@ -1,19 +1,12 @@
 !> Contact between two surfaces of finite elements whose nodes do not face each other.
 module fuge_contact_pairs_search
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
-  use fuge_common_points, only: add_found
   use fuge_contact_pairs_type, only: check_pair_options, fuge_contact_pairs, fuge_pair_options, &
     FUGE_MORTAR, FUGE_NORMALS_AVERAGED, FUGE_NORMALS_GIVEN, FUGE_NORMALS_OPPOSITE
-  use fuge_face_geometry, only: unit
   use fuge_kinds, only: dp
-  use fuge_near_origin, only: move_surface, way_to_origin
-  use fuge_nodal_areas, only: find_nodal_areas
-  use fuge_nodal_normals, only: average_normals, take_normals
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_MESH, FUGE_ERR_SIZE
-  use fuge_surface_checks, only: check_radii, check_surface
   use fuge_surface_mesh_type, only: fuge_surface_mesh
-  use fuge_weight_rows, only: copy_row, row_length
   implicit none
   private
 
@@ -44,6 +37,7 @@ contains
   !> normal that does, for a body of revolution that reaches beyond its axis, and for surfaces that do not face each
   !> other. Two surfaces that both look into their bodies face each other too, which only `fuge_join_bodies` sees.
   subroutine fuge_find_pairs(contact, opposite, options, pairs, info)
+    use fuge_near_origin, only: move_surface, way_to_origin
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     type(fuge_contact_pairs), intent(inout) :: pairs
@@ -71,6 +65,7 @@ contains
 
   !> The same for surfaces near the origin, checked.
   subroutine find_near_pairs(contact, opposite, options, pairs, info)
+    use fuge_common_points, only: add_found
     use fuge_opposite_faces, only: opposite_faces
     use fuge_pair_draft_type, only: pair_draft, start_draft
     type(fuge_surface_mesh), intent(in) :: contact, opposite
@@ -101,6 +96,7 @@ contains
 
   !> Refuse surfaces and options that do not fit.
   subroutine check_pair(contact, opposite, options, pairs, info)
+    use fuge_surface_checks, only: check_radii, check_surface
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
     type(fuge_contact_pairs), intent(in) :: pairs
@@ -135,6 +131,7 @@ contains
 
   !> The unit normals along which opposites are sought.
   pure subroutine set_normals(contact, options, faces, normal, stat, info)
+    use fuge_nodal_normals, only: average_normals, take_normals
     use fuge_curved_normals, only: mean_of_faces
     use fuge_opposite_faces, only: opposite_faces
     type(fuge_surface_mesh), intent(in) :: contact
@@ -154,6 +151,7 @@ contains
 
   !> Find what lies across from each node, by the method chosen.
   pure subroutine find_draft(contact, opposite, options, normal, faces, draft, stat)
+    use fuge_nodal_areas, only: find_nodal_areas
     use fuge_mortar_pairing, only: pair_faces
     use fuge_node_to_face, only: pair_nodes
     use fuge_opposite_faces, only: opposite_faces, prepare_opposite
@@ -220,6 +218,8 @@ contains
 
   !> Make contact points of the nodes that have an opposite.
   pure subroutine collect(contact, opposite, options, normal, draft, found, stat)
+    use fuge_face_geometry, only: unit
+    use fuge_weight_rows, only: row_length
     use fuge_pair_draft_type, only: pair_draft
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(fuge_pair_options), intent(in) :: options
@@ -298,6 +298,7 @@ contains
   !> `resultant`: how it depends on a translation of the opposite surface, `direction` but for curved bodies. The
   !> arguments are nine, because a row is filled from both surfaces into arrays of the caller.
   pure subroutine fill_row(contact, opposite, draft, i, direction, place, dof, normal, resultant)
+    use fuge_weight_rows, only: copy_row, row_length
     use fuge_pair_draft_type, only: pair_draft
     type(fuge_surface_mesh), intent(in) :: contact, opposite
     type(pair_draft), intent(in) :: draft

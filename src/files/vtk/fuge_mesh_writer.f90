@@ -9,9 +9,7 @@ module fuge_mesh_writer
   use fuge_number_text, only: index_text, text
   use fuge_status, only: composed_message, fuge_info, report, require_memory, FUGE_ERR_ELEMENT, FUGE_ERR_NOT_FINITE, &
     FUGE_ERR_SIZE
-  use fuge_text_writer, only: text_output
   use fuge_vtk_cells, only: vtk_cell, vtk_node, CELL_UNKNOWN
-  use fuge_vtk_results, only: begin_values, begin_vtk, check_name, end_vtk, put_array, put_length, put_vector, whole
   implicit none
   private
 
@@ -30,6 +28,8 @@ contains
   !> number of nodes, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION for the name of a field, FUGE_ERR_MEMORY; FUGE_ERR_FILE if
   !> writing fails, the file is then empty.
   subroutine fuge_write_mesh(path, mesh, fields, info)
+    use fuge_text_writer, only: text_output
+    use fuge_vtk_results, only: end_vtk
     character(len=*), intent(in) :: path
     type(fuge_mesh), intent(in) :: mesh
     type(fuge_mesh_field), intent(in) :: fields(:)
@@ -98,6 +98,7 @@ contains
 
   !> Refuse fields of other sizes (FUGE_ERR_SIZE), NaN and infinity (FUGE_ERR_NOT_FINITE), and names as those of grids.
   pure subroutine check_fields(mesh, fields, info)
+    use fuge_vtk_results, only: check_name
     type(fuge_mesh), intent(in) :: mesh
     type(fuge_mesh_field), intent(in) :: fields(:)
     type(fuge_info), intent(inout) :: info
@@ -139,6 +140,8 @@ contains
 
   !> Write all that stands before the numbers, in XML.
   subroutine write_head(file, mesh, nodes, fields)
+    use fuge_text_writer, only: text_output
+    use fuge_vtk_results, only: begin_values, begin_vtk, put_array, whole
     type(text_output), intent(inout) :: file
     type(fuge_mesh), intent(in) :: mesh
     integer, intent(in) :: nodes(:)
@@ -168,6 +171,8 @@ contains
 
   !> Write the list of the fields of the nodes or of the elements.
   subroutine put_list(file, section, fields, of_elements, columns, offset)
+    use fuge_text_writer, only: text_output
+    use fuge_vtk_results, only: put_array
     type(text_output), intent(inout) :: file
     character(len=*), intent(in) :: section
     type(fuge_mesh_field), intent(in) :: fields(:)
@@ -186,6 +191,7 @@ contains
 
   !> Write the values of the fields of the nodes or of the elements.
   subroutine write_fields(file, fields, of_elements)
+    use fuge_text_writer, only: text_output
     type(text_output), intent(inout) :: file
     type(fuge_mesh_field), intent(in) :: fields(:)
     logical, intent(in) :: of_elements
@@ -198,6 +204,8 @@ contains
 
   !> Write scalars, or vectors, of which those of two components get a third one.
   subroutine write_columns(file, value)
+    use fuge_text_writer, only: text_output
+    use fuge_vtk_results, only: put_length, put_vector
     type(text_output), intent(inout) :: file
     real(dp), intent(in) :: value(:, :)
     real(dp) :: vector(3)
@@ -218,6 +226,8 @@ contains
 
   !> Write the nodes of the cells, from 0, where those of each cell end, and the types of the cells.
   subroutine write_cells(file, mesh, cells, nodes)
+    use fuge_text_writer, only: text_output
+    use fuge_vtk_results, only: put_length
     type(text_output), intent(inout) :: file
     type(fuge_mesh), intent(in) :: mesh
     integer, intent(in) :: cells(:), nodes(:)

@@ -7,9 +7,6 @@ module fuge_result_files
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_GRID, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
-  use fuge_text_writer, only: text_output
-  use fuge_vtk_results, only: begin_values, begin_vtk, check_results, end_vtk, number_pair, put_array, &
-    put_result_list, put_results
   implicit none
   private
 
@@ -26,6 +23,8 @@ contains
   !> FUGE_ERR_FILE if writing fails, the file is then empty.
   !> Nine arguments: the file, the grid, the results, the report.
   subroutine fuge_write_results(path, nx, ny, spacing_x, spacing_y, names, results, info, origin)
+    use fuge_text_writer, only: text_output
+    use fuge_vtk_results, only: check_results, end_vtk, put_results
     character(len=*), intent(in) :: path, names(:)
     integer, intent(in) :: nx, ny
     real(dp), intent(in) :: spacing_x, spacing_y, results(:, :)
@@ -57,6 +56,8 @@ contains
   !> Errors: those of `fuge_write_results`, FUGE_ERR_GRID for depths that do not ascend, FUGE_ERR_MEMORY.
   !> Ten arguments: the file, the points, the results, the report.
   subroutine fuge_write_volume(path, nx, ny, spacing_x, spacing_y, depth, names, results, info, origin)
+    use fuge_text_writer, only: text_output
+    use fuge_vtk_results, only: check_results, end_vtk, put_results
     character(len=*), intent(in) :: path, names(:)
     integer, intent(in) :: nx, ny
     real(dp), intent(in) :: spacing_x, spacing_y, depth(:), results(:, :)
@@ -92,6 +93,8 @@ contains
 
   !> Write all that stands before the numbers of a grid, in XML.
   subroutine write_image_head(file, nx, ny, spacing, corner, names)
+    use fuge_text_writer, only: text_output
+    use fuge_vtk_results, only: begin_values, begin_vtk, number_pair, put_result_list
     type(text_output), intent(inout) :: file
     integer, intent(in) :: nx, ny
     real(dp), intent(in) :: spacing(2), corner(2)
@@ -111,6 +114,8 @@ contains
 
   !> Write all that stands before the numbers of a grid at depths, in XML; `points` (3) along x, y and z.
   subroutine write_volume_head(file, points, names)
+    use fuge_text_writer, only: text_output
+    use fuge_vtk_results, only: begin_values, begin_vtk, put_array, put_result_list
     type(text_output), intent(inout) :: file
     integer, intent(in) :: points(3)
     character(len=*), intent(in) :: names(:)

@@ -5,11 +5,8 @@ module fuge_layered_matrices
   use fuge_halfplane_influence, only: datum_length, fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN
   use fuge_halfspace_influence, only: copy_from_table, find_grid, fuge_halfspace_matrix
   use fuge_kinds, only: dp
-  use fuge_layer_kernel, only: layer_kernel
   use fuge_layered_body_type, only: fuge_layered_body
-  use fuge_overlap_rule, only: overlap_rule
   use fuge_ring_influence, only: fuge_ring_matrix
-  use fuge_ring_overlap, only: ring_overlap
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER
   use fuge_wave_mixture, only: wave_mixture
   implicit none
@@ -25,6 +22,8 @@ contains
   !> displacements are those of the half-space below the layers, zero at the same distance as there; on a rigid base
   !> they fall off. Errors, alpha untouched: as there, and FUGE_ERR_CALL_ORDER for a body that is not set.
   subroutine fuge_layered_halfplane_matrix(body, x, width, element, alpha, info, symmetric)
+    use fuge_layer_kernel, only: layer_kernel
+    use fuge_overlap_rule, only: overlap_rule
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: x(:), width(:)
     integer, intent(in) :: element
@@ -74,6 +73,8 @@ contains
   !> because the last two are optional. Errors, alpha untouched: as there, and FUGE_ERR_CALL_ORDER for a body that is
   !> not set.
   subroutine fuge_layered_halfspace_matrix(body, x, y, width_x, width_y, element, alpha, info, symmetric_x, symmetric_y)
+    use fuge_layer_kernel, only: layer_kernel
+    use fuge_overlap_rule, only: overlap_rule
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: x(:), y(:), width_x(:), width_y(:)
     integer, intent(in) :: element
@@ -144,6 +145,8 @@ contains
   !> `body` after its `set`; `radius` and `alpha` as those of fuge_ring_matrix, with the element FUGE_MEAN. Errors,
   !> alpha untouched: as there, and FUGE_ERR_CALL_ORDER for a body that is not set.
   subroutine fuge_layered_ring_matrix(body, radius, alpha, info)
+    use fuge_layer_kernel, only: layer_kernel
+    use fuge_ring_overlap, only: ring_overlap
     type(fuge_layered_body), intent(in) :: body
     real(dp), intent(in) :: radius(:)
     real(dp), intent(inout) :: alpha(:, :)
@@ -190,6 +193,8 @@ contains
   end function farthest
 
   pure function mean_of_line(kernel, rule) result(mean)
+    use fuge_layer_kernel, only: layer_kernel
+    use fuge_overlap_rule, only: overlap_rule
     type(layer_kernel), intent(in) :: kernel
     type(overlap_rule), intent(in) :: rule
     real(dp) :: mean
@@ -203,6 +208,8 @@ contains
 
   !> The `mean` over two rectangles of these widths, `offset` from each other. `rule`: work space.
   pure subroutine mean_of_area(kernel, rule, offset, loaded, observed, mean)
+    use fuge_layer_kernel, only: layer_kernel
+    use fuge_overlap_rule, only: overlap_rule
     type(layer_kernel), intent(in) :: kernel
     type(overlap_rule), intent(inout) :: rule(2)
     real(dp), intent(in) :: offset(2), loaded(2), observed(2)

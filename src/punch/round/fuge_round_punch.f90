@@ -9,13 +9,8 @@ module fuge_round_punch
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_round_certificate, only: certify_round
   use fuge_round_contact_type, only: fuge_round_contact
-  use fuge_round_newton, only: round_target, GIVEN_APPROACH, GIVEN_LOAD, GIVEN_RADIUS
-  use fuge_round_search, only: disc_search, find_disc, DISC_AT_RIM, DISC_FOUND, DISC_IN_TENSION, DISC_PENETRATED
-  use fuge_smooth_accuracy, only: report_accuracy
   use fuge_smooth_profile_type, only: fuge_smooth_profile, sample_profile
-  use fuge_smooth_samples, only: lowest_position
   use fuge_status, only: fuge_info, report, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW, &
     FUGE_ERR_UNSUPPORTED, FUGE_ERR_WIDTH
   implicit none
@@ -48,6 +43,8 @@ contains
   !> or beyond the profile, FUGE_ERR_MODULUS, FUGE_ERR_NO_EQUILIBRIUM for load < 0, FUGE_ERR_CALLBACK for a profile that
   !> fails.
   subroutine fuge_solve_round_punch(profile, e_star, contact, info, load, approach, radius)
+    use fuge_round_newton, only: round_target, GIVEN_APPROACH, GIVEN_LOAD, GIVEN_RADIUS
+    use fuge_round_search, only: disc_search, find_disc, DISC_FOUND
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: e_star
     type(fuge_round_contact), intent(inout) :: contact
@@ -120,6 +117,7 @@ contains
 
   !> Refuse a load, an approach or a radius that cannot be.
   subroutine check_given(profile, given, kind_given, info)
+    use fuge_round_newton, only: GIVEN_LOAD, GIVEN_RADIUS
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: given
     integer, intent(in) :: kind_given
@@ -143,6 +141,7 @@ contains
 
   !> A load may be as small as its parts have all digits, because of it only roots are formed; of lengths also squares.
   pure function least_exponent(kind_given) result(least)
+    use fuge_round_newton, only: GIVEN_LOAD
     integer, intent(in) :: kind_given
     integer :: least
 
@@ -160,6 +159,8 @@ contains
 
   !> The contact without load: the axis, or nothing. Refused if another part of the profile is lower.
   subroutine touch(profile, e_star, kind_given, given, axis_gap, contact, info)
+    use fuge_round_newton, only: GIVEN_APPROACH
+    use fuge_smooth_samples, only: lowest_position
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: e_star, given, axis_gap
     integer, intent(in) :: kind_given
@@ -187,6 +188,9 @@ contains
 
   !> Certify the contact found; warn of a large residual or estimated error.
   subroutine certify_search(profile, search, info)
+    use fuge_round_certificate, only: certify_round
+    use fuge_round_search, only: disc_search
+    use fuge_smooth_accuracy, only: report_accuracy
     class(fuge_smooth_profile), intent(in) :: profile
     type(disc_search), intent(in) :: search
     type(fuge_info), intent(inout) :: info
@@ -200,6 +204,7 @@ contains
 
   !> Refuse: report why there is no single disc, and which engine to use.
   subroutine report_outcome(profile, search, info)
+    use fuge_round_search, only: disc_search, DISC_AT_RIM, DISC_IN_TENSION, DISC_PENETRATED
     class(fuge_smooth_profile), intent(in) :: profile
     type(disc_search), intent(in) :: search
     type(fuge_info), intent(inout) :: info

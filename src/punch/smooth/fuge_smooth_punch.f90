@@ -10,14 +10,8 @@ module fuge_smooth_punch
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_smooth_accuracy, only: report_accuracy
-  use fuge_smooth_certificate, only: certify_contact
   use fuge_smooth_contact_type, only: fuge_smooth_contact
-  use fuge_smooth_newton, only: load_case
   use fuge_smooth_profile_type, only: fuge_smooth_profile
-  use fuge_smooth_samples, only: lowest_position
-  use fuge_smooth_search, only: find_contact_interval, interval_search, INTERVAL_FOUND, INTERVAL_IN_TENSION, &
-    INTERVAL_PENETRATED, INTERVAL_AT_END
   use fuge_status, only: fuge_info, report, FUGE_ERR_WIDTH, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OVERFLOW, &
     FUGE_ERR_UNSUPPORTED, FUGE_WARN_NOT_UNIQUE
   implicit none
@@ -49,6 +43,9 @@ contains
   !> FUGE_ERR_NO_EQUILIBRIUM for force < 0 or a line of action outside of the profile,
   !> FUGE_ERR_CALLBACK for a profile that fails.
   subroutine fuge_solve_smooth_punch(profile, e_star, force, contact, info, moment)
+    use fuge_smooth_newton, only: load_case
+    use fuge_smooth_samples, only: lowest_position
+    use fuge_smooth_search, only: find_contact_interval, interval_search, INTERVAL_FOUND
     class(fuge_smooth_profile), intent(in) :: profile
     real(dp), intent(in) :: e_star, force
     type(fuge_smooth_contact), intent(inout) :: contact
@@ -148,6 +145,9 @@ contains
 
   !> Certify the contact found; warn of a large residual or estimated error.
   subroutine certify_search(profile, search, info)
+    use fuge_smooth_accuracy, only: report_accuracy
+    use fuge_smooth_certificate, only: certify_contact
+    use fuge_smooth_search, only: interval_search
     class(fuge_smooth_profile), intent(in) :: profile
     type(interval_search), intent(in) :: search
     type(fuge_info), intent(inout) :: info
@@ -170,6 +170,8 @@ contains
 
   !> Refuse: report why there is no single interval, and which engine to use.
   subroutine report_outcome(profile, search, load, info)
+    use fuge_smooth_newton, only: load_case
+    use fuge_smooth_search, only: interval_search, INTERVAL_IN_TENSION, INTERVAL_PENETRATED, INTERVAL_AT_END
     class(fuge_smooth_profile), intent(in) :: profile
     type(interval_search), intent(in) :: search
     type(load_case), intent(in) :: load
