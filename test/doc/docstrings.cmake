@@ -1,8 +1,8 @@
 # Every name of module fuge has a docstring: cmake -D ROOT=... -P docstrings.cmake
 #
 # Procedures, types and constants that the facades of the components pass on; public components of the types;
-# their procedures at the binding, or where they are written. Also the public types of
-# fuge_sparse. A docstring is a line `!> ...` right before.
+# their procedures at the binding, or where they are written; a procedure of a child may have that of the binding that
+# it overrides. Also the public types of fuge_sparse. A docstring is a line `!> ...` right before.
 cmake_minimum_required(VERSION 3.20)
 
 # The lines of a file as a list: CMake would take some characters as its own.
@@ -15,12 +15,15 @@ function(read_lines path out)
 endfunction()
 
 # In lists of `path`: <out>_documented, names of procedures with a docstring, types and
-# constants likewise; <out>_missing, what lacks one in a type, as type%name.
+# constants likewise; <out>_missing, what lacks one in a type, as type%name; <out>_children, types that extend another
+# one; <out>_bound, bindings with a docstring.
 function(read_docstrings path out)
   read_lines("${path}" lines)
   set(documented)
   set(bare)
   set(bindings)
+  set(children)
+  set(told)
   set(type "")
   set(before "")
   set(hidden FALSE)
@@ -37,6 +40,9 @@ function(read_docstrings path out)
     elseif(line MATCHES "^ *type(,[a-z_, ()]*)? *:: *([a-z_0-9]+)$")
       set(name ${CMAKE_MATCH_2})
       set(type ${name})
+      if(line MATCHES "extends")
+        list(APPEND children ${type})
+      endif()
       set(bound FALSE)
       set(hidden FALSE)
     elseif(line MATCHES "^ *[a-z0-9 ]+(\\(.*\\))?.*, parameter.*:: *([A-Za-z_0-9]+) *=")
@@ -46,7 +52,9 @@ function(read_docstrings path out)
     elseif(type AND line MATCHES "^ *private *$")
       set(hidden TRUE)
     elseif(type AND bound AND line MATCHES "^ *procedure *(\\(([a-z_0-9]+)\\))?.*:: *([a-z_0-9]+)( *=> *([a-z_0-9]+))?")
-      if(NOT said)
+      if(said)
+        list(APPEND told ${CMAKE_MATCH_3})
+      else()
         set(writer ${CMAKE_MATCH_2}${CMAKE_MATCH_5})
         if(NOT writer)
           set(writer ${CMAKE_MATCH_3})
@@ -72,10 +80,14 @@ function(read_docstrings path out)
   endforeach()
   set(${out}_documented "${documented}" PARENT_SCOPE)
   set(${out}_missing "${bare}" PARENT_SCOPE)
+  set(${out}_children "${children}" PARENT_SCOPE)
+  set(${out}_bound "${told}" PARENT_SCOPE)
 endfunction()
 
 set(count 0)
 set(missing)
+set(children)
+set(bound)
 function(check_names path names)
   read_docstrings("${ROOT}/${path}" found)
   foreach(name IN ITEMS ${names})
@@ -91,10 +103,12 @@ function(check_names path names)
   endforeach()
   set(count ${count} PARENT_SCOPE)
   set(missing "${missing}" PARENT_SCOPE)
+  set(children "${children};${found_children}" PARENT_SCOPE)
+  set(bound "${bound};${found_bound}" PARENT_SCOPE)
 endfunction()
 
 set(facade)
-foreach(component IN ITEMS core area punch stress fe files)
+foreach(component IN ITEMS core area layers punch stress fe files)
   read_lines("${ROOT}/src/${component}/fuge_${component}.f90" lines)
   list(APPEND facade ${lines})
 endforeach()
@@ -111,6 +125,11 @@ if(count LESS 50)
 endif()
 check_names("src/sparse/fuge_sparse.f90" "fuge_sparse_stiffness")
 
+foreach(entry IN LISTS missing)
+  if(entry MATCHES ": ([a-z_0-9]+)%([a-z_0-9]+)$" AND CMAKE_MATCH_1 IN_LIST children AND CMAKE_MATCH_2 IN_LIST bound)
+    list(REMOVE_ITEM missing "${entry}")
+  endif()
+endforeach()
 if(missing)
   string(REPLACE ";" "\n  " missing "${missing}")
   message(FATAL_ERROR "without a docstring (a line !> right before):\n  ${missing}")

@@ -24,5 +24,7 @@ expect_missing(src/core/model/fuge_problem_type.f90 "type, public :: fuge_soluti
 expect_missing(src/core/model/fuge_options_type.f90 ":: keep_history" "fuge_options%keep_history")
 expect_missing(src/core/base/fuge_status.f90 "function failed" "fuge_info%failed")
 expect_missing(src/core/model/fuge_monitor_type.f90 "subroutine report_progress" "fuge_monitor%progress")
+expect_missing(src/stress/field/fuge_field_type.f90 "procedure.find_peak., deferred :: find_largest"
+  "fuge_field%find_largest")
 expect_missing(src/sparse/fuge_sparse.f90 "type, extends.fuge_stiffness., public :: fuge_sparse_stiffness"
   "fuge_sparse_stiffness")

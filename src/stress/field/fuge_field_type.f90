@@ -13,8 +13,9 @@ module fuge_field_type
   !> about an axis x is the radius and y the circumference. Tensors are xx, yy, zz, yz, xz, xy, force per length
   !> squared, tension positive: under a pressure p at z = 0 zz is -p. Displacements are positive along their axes.
   type, abstract, public :: fuge_field
-    !> For children: has it been set, is it known at any place, and below how many cells of a grid is it known?
+    !> For children: has it been set, is it known at any place?
     logical :: is_set = .false., has_places = .true.
+    !> For children: below how many cells of a grid is it known?
     integer :: cells = 0
   contains
     procedure :: stress
@@ -23,12 +24,17 @@ module fuge_field_type
     procedure :: grid_displacement
     procedure :: largest
     procedure :: interfaces
-    !> What a child knows; arguments have been checked.
+    !> What a child knows, its arguments checked: stresses at places.
     procedure(at_places), deferred :: find_stress
+    !> Displacements at places.
     procedure(at_places), deferred :: find_displacement
+    !> The largest stress.
     procedure(find_peak), deferred :: find_largest
+    !> Stresses below a grid.
     procedure :: find_grid_stress => no_grid
+    !> Displacements below a grid.
     procedure :: find_grid_displacement => no_grid
+    !> The largest stresses of interfaces.
     procedure :: find_interfaces => no_interfaces
   end type fuge_field
 
