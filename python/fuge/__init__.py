@@ -62,19 +62,14 @@ Surfaces, profiles and matrices in files
 
 Stresses and displacements in the bodies
 
-    halfplane_stress, halfspace_stress, ring_stress                     at points, from the forces
-    halfplane_displacement, halfspace_displacement, ring_interior_displacement
-    halfplane_stress_grid, halfspace_stress_grid                        below the cells of a grid, at depths, by FFT
-    halfplane_displacement_grid, halfspace_displacement_grid
-    layered_halfplane_stress, layered_halfspace_stress                  in layers
-    layered_halfplane_displacement, layered_halfspace_displacement
-    layered_halfplane_stress_grid, layered_halfspace_stress_grid        below grids
-    layered_halfplane_displacement_grid, layered_halfspace_displacement_grid
-    layered_halfplane_interfaces, layered_halfspace_interfaces          what cracks coatings: InterfaceStress
-    layered_halfplane_peak, layered_halfspace_peak                      the largest stress: LayerPeak
-    halfplane_tensor, round_tensor                                      all components
-    von_mises, tresca, mean_stress, principal_stresses                  of tensors
-    halfplane_peak, halfspace_peak, ring_peak                           the largest stress: StressPeak
+    contact.field(young=, poisson=)         the Field of a contact; contact.field() with layers
+    Field.halfplane, Field.halfspace, Field.rings            of cells and forces
+    Field.halfplane_grid, Field.halfspace_grid
+    Field.stress, Field.displacement        at points
+    Field.grid_stress, Field.grid_displacement               below the cells of a grid, at depths, by FFT
+    Field.largest                           the largest stress: StressPeak
+    Field.interfaces                        what cracks coatings: InterfaceStress
+    von_mises, tresca, mean_stress, principal_stresses       of tensors
 
 Pictures by matplotlib, one call each on what a solve returns
 
@@ -124,6 +119,7 @@ from fuge.errors import (
     UnsupportedError as UnsupportedError,
     Warning as Warning,
 )
+from fuge.field import Field as Field, InterfaceStress as InterfaceStress, StressPeak as StressPeak
 from fuge.formats.decks import read_deck as read_deck
 from fuge.formats.matrix_market import (
     read_matrix as read_matrix,
@@ -160,24 +156,6 @@ from fuge.heights import (
     level_profile as level_profile,
     level_surface as level_surface,
     sample_profile as sample_profile,
-)
-from fuge.layer_points import (
-    layered_halfplane_displacement as layered_halfplane_displacement,
-    layered_halfplane_stress as layered_halfplane_stress,
-    layered_halfspace_displacement as layered_halfspace_displacement,
-    layered_halfspace_stress as layered_halfspace_stress,
-)
-from fuge.layer_stress import (
-    InterfaceStress as InterfaceStress,
-    LayerPeak as LayerPeak,
-    layered_halfplane_displacement_grid as layered_halfplane_displacement_grid,
-    layered_halfplane_interfaces as layered_halfplane_interfaces,
-    layered_halfplane_peak as layered_halfplane_peak,
-    layered_halfplane_stress_grid as layered_halfplane_stress_grid,
-    layered_halfspace_displacement_grid as layered_halfspace_displacement_grid,
-    layered_halfspace_interfaces as layered_halfspace_interfaces,
-    layered_halfspace_peak as layered_halfspace_peak,
-    layered_halfspace_stress_grid as layered_halfspace_stress_grid,
 )
 from fuge.layers import (
     CoatingLimits as CoatingLimits,
@@ -217,33 +195,11 @@ from fuge.smooth import (
 )
 from fuge.solver import Solver as Solver, solve as solve
 from fuge.stiffness_rows import StiffnessFile as StiffnessFile
-from fuge.stress import (
-    halfplane_displacement as halfplane_displacement,
-    halfplane_stress as halfplane_stress,
-    halfspace_displacement as halfspace_displacement,
-    halfspace_stress as halfspace_stress,
-    ring_interior_displacement as ring_interior_displacement,
-    ring_stress as ring_stress,
-)
-from fuge.stress_grid import (
-    halfplane_displacement_grid as halfplane_displacement_grid,
-    halfplane_stress_grid as halfplane_stress_grid,
-    halfspace_displacement_grid as halfspace_displacement_grid,
-    halfspace_stress_grid as halfspace_stress_grid,
-)
 from fuge.stress_measures import (
-    halfplane_tensor as halfplane_tensor,
     mean_stress as mean_stress,
     principal_stresses as principal_stresses,
-    round_tensor as round_tensor,
     tresca as tresca,
     von_mises as von_mises,
-)
-from fuge.stress_peak import (
-    StressPeak as StressPeak,
-    halfplane_peak as halfplane_peak,
-    halfspace_peak as halfspace_peak,
-    ring_peak as ring_peak,
 )
 from fuge.tables import Table as Table
 

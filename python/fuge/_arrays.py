@@ -170,7 +170,7 @@ def flag(name: str, value: Any) -> int:
 
 def spread_flags(name: str, value: ArrayLike, shape: tuple[int, ...]) -> Ints:
     """Booleans, or one for all, broadcast to a shape."""
-    found = flags(name, value)
+    found = flags(name, value).reshape(np.shape(value))
     try:
         return np.ascontiguousarray(np.broadcast_to(found, shape))
     except ValueError:

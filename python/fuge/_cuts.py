@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fuge.cells import Cells
-from fuge.contact import Contact
 from fuge.errors import Status, error
-from fuge.halfplane import Element
-from fuge.operators import AreaBoundary, Boundary
+from fuge.field import Field
 from fuge.smooth import RoundContact, SmoothContact
-from fuge.stress import halfplane_stress, halfspace_stress
-from fuge.stress_grid import halfplane_stress_grid, halfspace_stress_grid
-from fuge.stress_measures import halfplane_tensor, round_tensor, tresca
+from fuge.stress_measures import tresca
 
 Doubles = NDArray[np.float64]
 
@@ -36,7 +32,7 @@ _BELOW = 1.25
 class Cut:
     """Shear stresses in a cut: shear[k, i] is the largest one at depth[k] below place[i].
 
-    The contact begins at `left` and ends at `right`; on a grid these and `place` count from its middle. Above the depth
+    The forces begin at `left` and end at `right`; on a grid these and `place` count from its middle. Above the depth
     `resolved` the cells are too wide to show how large a stress is; it is infinite if the pressure has no limit.
     """
 
@@ -70,32 +66,14 @@ def peak_cell(force: Doubles) -> tuple[int, ...]:
     return tuple(int(k) for k in np.unravel_index(int(force.argmax()), force.shape))
 
 
-def cut_through(
-    contact: Contact | SmoothContact | RoundContact, poisson: float, along: str, below: float | None
-) -> Cut:
+def cut_through(field: Field, axis: int, below: float | None) -> Cut:
     """The cut through the largest pressure, down to the depth `below`, or to one that fits the contact."""
-    if not isinstance(contact, Contact):
-        place, depth = _points(*ends(contact), below)
-        if isinstance(contact, RoundContact):
-            tensor = round_tensor(contact.stress(poisson, np.abs(place), depth[:, None]))
-        else:
-            tensor = halfplane_tensor(contact.stress(place, depth[:, None]), poisson)
-        unlimited = contact.peak(poisson, "tresca").location == "singular"
-        return Cut(place, depth, tresca(tensor) / 2, *ends(contact), np.inf if unlimited else 0.0)
-    if contact.cells is None:
-        raise error(
-            Status.ERR_GRID,
-            "the operator does not know its cells, so there are no stresses to draw: use HalfplaneOperator or "
-            "HalfspaceOperator, or functions such as fuge.halfplane_stress with the cells and the forces",
-        )
-    if not contact.cells.homogeneous:
-        raise error(
-            Status.ERR_UNSUPPORTED,
-            "fuge.plot.stress draws the stresses in a homogeneous half-plane or half-space, but this body has layers, "
-            "or is that of a CallbackOperator, which is only close to one: draw the pressure by fuge.plot.map or "
-            "fuge.plot.line",
-        )
-    return _cut_through_cells(contact, contact.cells, poisson, along, below)
+    areas = len(field._loads.axes) == 2 if field.cells is None else len(field.cells.shape) == 2
+    if axis == 1 and not areas:
+        raise error(Status.ERR_OPTION, "along='y' is for areas: on a line the cut is along x")
+    if field.cells is None:
+        return _through_loads(field, axis, below)
+    return _through_cells(field, field.cells, axis, below)
 
 
 def ends(contact: SmoothContact | RoundContact) -> tuple[float, float]:
@@ -105,25 +83,40 @@ def ends(contact: SmoothContact | RoundContact) -> tuple[float, float]:
     return contact.left, contact.right
 
 
-def _points(left: float, right: float, below: float | None) -> tuple[Doubles, Doubles]:
-    """Places about an interval and depths below it."""
-    length = right - left
-    if not length > 0.0:
-        raise error(Status.ERR_OPTION, "the bodies touch without a force, so there is no stress: press harder")
-    beside = _BESIDE * length
+def _depths(field: Field, length: float, below: float | None) -> Doubles:
+    """Depths below a contact of this length, none of them in a rigid base."""
+    return np.linspace(0.0, min(below or _BELOW * length, field._bottom), _DEPTHS)
+
+
+def _points(x: Doubles | float, y: Doubles | float, depth: Doubles) -> Doubles:
+    return np.stack(np.broadcast_arrays(x, y, depth[:, None]), axis=-1)
+
+
+def _through_loads(field: Field, axis: int, below: float | None) -> Cut:
+    """Of cells of any widths and of punches without a grid."""
+    force, axes, resolved = field._loads
+    peak_cell(np.abs(force))
+    loaded = force != 0.0
+    middle, width, symmetric = axes[axis]
+    left, right = float(np.min((middle - width / 2)[loaded])), float(np.max((middle + width / 2)[loaded]))
+    left = -right if symmetric else left
+    pressure = force / np.prod([width for _, width, _ in axes], axis=0)
+    across = float(axes[1 - axis][0][pressure.argmax()]) if len(axes) == 2 else 0.0
+    beside = _BESIDE * (right - left)
     # The pressure may have no limit at the ends and in the middle: no place is there, and no depth is zero.
     place = np.linspace(left - beside, right + beside, _COLUMNS)
-    depth = np.linspace(0.0, below or _BELOW * length, _DEPTHS)
+    depth = _depths(field, right - left, below)
     depth[0] = 0.02 * depth[1]
-    return place, depth
+    along = np.abs(place) if symmetric else place
+    points = _points(along, across, depth) if axis == 0 else _points(across, along, depth)
+    unlimited = resolved == 0.0 and field.largest("tresca").location == "singular"
+    return Cut(place, depth, tresca(field.stress(points)) / 2, left, right, np.inf if unlimited else resolved)
 
 
-def _cut_through_cells(contact: Contact, cells: Cells, poisson: float, along: str, below: float | None) -> Cut:
-    force = contact.force.reshape(cells.shape)
+def _through_cells(field: Field, cells: Cells, axis: int, below: float | None) -> Cut:
+    """Of equal cells."""
+    force = field._loads.force
     peak = peak_cell(force)
-    if along == "y" and len(cells.shape) == 1:
-        raise error(Status.ERR_OPTION, "along='y' is for areas: on a line the cut is along x")
-    axis = 1 if along == "y" else 0
     row = force if force.ndim == 1 else (force[peak[0]] if axis == 0 else force[:, peak[1]])
     first, last = segment_around(row > 0.0, peak[-1] if axis == 0 else peak[0])
     width = cells.spacing[axis]
@@ -131,58 +124,27 @@ def _cut_through_cells(contact: Contact, cells: Cells, poisson: float, along: st
     beside = max(int(np.ceil(_BESIDE * (last - first + 1))), 3)
     begin, end = max(first - beside, 0), min(last + beside, row.size - 1)
     if begin == end:
-        raise error(Status.ERR_GRID, "a cut needs two cells and more: use functions such as fuge.halfplane_stress")
+        raise error(Status.ERR_GRID, "a cut needs two cells and more: take the stress of the field at points")
     columns = np.unique(np.linspace(begin, end, min(end - begin + 1, _COLUMNS)).astype(int))
-    depth = np.linspace(0.0, below or _BELOW * length, _DEPTHS)
-    if force.ndim == 1:
-        tensor = halfplane_tensor(_line_stress(force, cells, columns, depth), poisson)
-    else:
-        tensor = _area_stress(force, cells, poisson, peak, axis, columns, depth)
+    where = (columns,) if force.ndim == 1 else ((peak[0], columns) if axis == 0 else (columns, peak[1]))
+    depth = _depths(field, length, below)
     place = cells.centres(axis)
     left = float(place[first]) - 0.5 * width
-    return Cut(place[columns], depth, tresca(tensor) / 2, left, left + length, width)
+    shear = tresca(_tensors(field, cells, where, depth)) / 2
+    return Cut(place[columns], depth, shear, left, left + length, width)
 
 
-def _line_stress(force: Doubles, cells: Cells, columns: NDArray[np.intp], depth: Doubles) -> Doubles:
-    """xx, zz, xz, (depths, columns, 3)."""
-    element, width, x = cast(Element, cells.element), cells.spacing[0], cells.centres(0)
-    loaded = force != 0.0
-    if cells.boundary == "free" and np.count_nonzero(loaded) * columns.size <= _TRANSFORMS * force.size:
-        return halfplane_stress(x[loaded], width, force[loaded], element, x[columns], depth[:, None])
-    boundary = cast(Boundary, cells.boundary)
-    batches = _batches(depth, force.size)
-    return np.concatenate(
-        [halfplane_stress_grid(width, force, element, batch, boundary)[:, columns] for batch in batches]
-    )
+def _tensors(field: Field, cells: Cells, where: tuple[Any, ...], depth: Doubles) -> Doubles:
+    """Tensors below the cells with these indices, (depths, columns, 6)."""
+    force = field._loads.force
+    columns = max(np.size(k) for k in where)
+    few = np.count_nonzero(force) * columns <= _TRANSFORMS * force.size
+    if few and cells.boundary == "free" and cells.layers is None:
+        x, y = [k * spacing for k, spacing in zip(where[::-1], cells.spacing)] + [0.0] * (2 - len(where))
+        return field.stress(_points(x, y, depth))
+    return np.concatenate([field.grid_stress(batch)[(slice(None), *where)] for batch in _batches(depth, force.size)])
 
 
 def _batches(depth: Doubles, cells: int) -> list[Doubles]:
     """The depths, split so that a grid of this number of cells has room for each batch."""
     return np.array_split(depth, min(-(-depth.size * cells // _ROOM), depth.size))
-
-
-def _area_stress(
-    force: Doubles,
-    cells: Cells,
-    poisson: float,
-    peak: tuple[int, ...],
-    axis: int,
-    columns: NDArray[np.intp],
-    depth: Doubles,
-) -> Doubles:
-    """Tensors, (depths, columns, 6)."""
-    width_x, width_y = cells.spacing
-    loaded = force != 0.0
-    if cells.boundary == "free" and np.count_nonzero(loaded) * columns.size <= _TRANSFORMS * force.size:
-        x, y = np.meshgrid(cells.centres(0), cells.centres(1))
-        px = cells.centres(0)[columns if axis == 0 else peak[1]]
-        py = cells.centres(1)[columns if axis == 1 else peak[0]]
-        return halfspace_stress(
-            x[loaded], y[loaded], width_x, width_y, force[loaded], poisson, px, py, depth[:, None]
-        )
-    boundary = cast(AreaBoundary, cells.boundary)
-    tensors = []
-    for batch in _batches(depth, force.size):
-        stress = halfspace_stress_grid(width_x, width_y, force, poisson, batch, boundary)
-        tensors.append(stress[:, peak[0], columns] if axis == 0 else stress[:, columns, peak[1]])
-    return np.concatenate(tensors)

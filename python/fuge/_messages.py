@@ -26,6 +26,8 @@ _PATTERN = re.compile(
 _HANDLE = re.compile("(?:operator|bodies|body|pairs|links)_(?=.)")
 
 _ARRAYS = {"f": "force", "u": "displacement"}
+# What the library calls the columns of points.
+_COLUMNS = {"px": 0, "pr": 0, "py": 1, "pz": 2}
 _FUNCTIONS = {
     "operator_dense": "DenseOperator",
     "operator_callback": "CallbackOperator",
@@ -68,6 +70,8 @@ def _replaced(match: re.Match[str], shapes: Shapes) -> str:
 
 def _element(name: str, index: str, second: str | None, shapes: Shapes) -> str:
     """An element of an array; two indices come in Fortran's order, which Python reverses for arrays with a shape."""
+    if name in _COLUMNS and "points" in shapes:
+        return f"points[{_places('points', str(3 * int(index) + _COLUMNS[name]), shapes)}]"
     if second is None:
         place = _places(name, index, shapes)
     else:

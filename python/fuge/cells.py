@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fuge.errors import Status, error
+
+if TYPE_CHECKING:
+    from fuge.layers import Layers
 
 
 @dataclass(frozen=True)
@@ -27,6 +31,8 @@ class Cells:
     homogeneous : bool
         The body is a half-plane or a half-space; False for layers, and for a callback operator that is only
         close to one.
+    layers : Layers or None
+        The body, if it has layers.
     """
 
     shape: tuple[int, ...]
@@ -34,6 +40,7 @@ class Cells:
     boundary: str
     element: str
     homogeneous: bool = True
+    layers: Layers | None = None
 
     @property
     def size(self) -> float:

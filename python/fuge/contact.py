@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import weakref
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field as attribute
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from fuge.cells import Cells, pressure_of
 from fuge.design import Gradients
 from fuge.errors import Status, error
+from fuge.field import Field, field_of_cells
+from fuge.halfplane import PlaneState
 from fuge.proof import Proof
 
 
@@ -84,7 +86,7 @@ class Contact:
     message: str
     cells: Cells | None = None
     proof: Proof | None = None
-    _solver: weakref.ref[Any] | None = field(default=None, repr=False)
+    _solver: weakref.ref[Any] | None = attribute(default=None, repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_solver": None}
@@ -146,6 +148,34 @@ class Contact:
             The operator does not know the cells of its points, as a matrix does not.
         """
         return pressure_of(self.force, self.cells)
+
+    def field(
+        self, *, young: float | None = None, poisson: float | None = None, plane_state: PlaneState = "strain"
+    ) -> Field:
+        """Stresses and displacements in the body below, for operators of equal cells.
+
+        Parameters
+        ----------
+        young : float, optional
+            Young's modulus of this body, not of the pair, for displacements; force per length^2.
+        poisson : float
+            Its Poisson's ratio. Layers are known to their operator: leave both out.
+        plane_state : {'strain', 'stress'}
+            On a line: long bodies, or thin ones.
+
+        Returns
+        -------
+        Field
+            Its x and y count from the centre of the first cell.
+
+        Raises
+        ------
+        InputError
+            The operator does not know the cells of its points, as a matrix does not: see :meth:`Field.halfplane`.
+        UnsupportedError
+            The operator is a callback, whose body is not known.
+        """
+        return field_of_cells(self.cells, self.force, young, poisson, plane_state)
 
     @property
     def approach(self) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Mapping, NamedTuple
 
 import numpy as np
@@ -172,7 +172,7 @@ def layers_of(layers: Any) -> list[Any]:
     if not isinstance(layers, Layers):
         raise TypeError(
             f"layers must be Layers, not {type(layers).__name__}: a body of one material is "
-            "Layers([], young, poisson), or a half-space, which has operators and functions of its own"
+            "Layers([], young, poisson), or a half-space, which has operators and fields of its own"
         )
     return layers.arguments()
 
@@ -324,7 +324,7 @@ class LayeredHalfplaneOperator(HalfplaneOperator):
         kind = [ELEMENTS.number(element), BOUNDARIES.number(boundary)]
         self._create("fuge_operator_layered_halfplane", self.n, width, *layers_of(layers), *kind)
         self.e_star = layers.e_star
-        self.cells = replace(Cells((self.n,), (width,), boundary, element), homogeneous=False)
+        self.cells = Cells((self.n,), (width,), boundary, element, homogeneous=False, layers=layers)
 
     def _described(self) -> Mapping[str, Any]:
         return _described(self)
@@ -368,7 +368,7 @@ class LayeredHalfspaceOperator(HalfspaceOperator):
         self.n = columns * rows
         self.grid = (rows, columns)
         self.e_star = layers.e_star
-        self.cells = replace(Cells(self.grid, spacing, boundary, element), homogeneous=False)
+        self.cells = Cells(self.grid, spacing, boundary, element, homogeneous=False, layers=layers)
 
     def _described(self) -> Mapping[str, Any]:
         return _described(self)

@@ -364,7 +364,7 @@ class CallbackOperator(Operator):
         """
         self._set_other("fuge_operator_set_auxiliary", "auxiliary", auxiliary)
         # The cells give the pressures, but the stresses are not those of the auxiliary body.
-        self.cells = auxiliary.cells and replace(auxiliary.cells, homogeneous=False)
+        self.cells = auxiliary.cells and replace(auxiliary.cells, homogeneous=False, layers=None)
 
     def _described(self) -> Mapping[str, Any]:
         return {"n": self.n, **({"grid": self.grid} if self.grid else {})}

@@ -4,7 +4,7 @@
     fuge.plot.map(contact)       the pressure on an area
     fuge.plot.line(contact)      the pressure along a line
     fuge.plot.gap(contact)       the gaps under load
-    fuge.plot.stress(contact)    the largest shear stress below the contact
+    fuge.plot.stress(contact)    the largest shear stress below the contact, or in a fuge.Field
     fuge.plot.path(fuge.load_path(alpha, gap, load))    the load over the approach
 
 Each returns matplotlib's Axes, those of the argument ``ax`` or new ones; ``ax.figure.savefig`` saves the picture. The
@@ -25,6 +25,7 @@ from fuge import _arrays
 from fuge._cuts import Cut, cut_through, ends
 from fuge.contact import Contact
 from fuge.errors import Status, error
+from fuge.field import Field
 from fuge.path import Path, PointState
 from fuge.smooth import RoundContact, SmoothContact
 
@@ -382,9 +383,9 @@ def _told_events(path: Path) -> str:
 
 
 def stress(
-    contact: AnyContact,
+    contact: AnyContact | Field,
     *,
-    poisson: float = 0.3,
+    poisson: float | None = None,
     depth: float | None = None,
     along: Literal["x", "y"] = "x",
     unit: str | None = None,
@@ -394,15 +395,15 @@ def stress(
     """The largest shear stress below the contact, in a cut through the largest pressure; a cross where it is largest.
 
     It is half of Tresca's stress, in the body below; a contact along a line is taken as one of plane strain. Of several
-    contacts the one with the largest pressure is shown. Where the stress is largest within a cell of the surface, as
-    under the corner of a punch, the title says "or more".
+    contacts on a grid the one with the largest pressure is shown. Where the stress is largest within a cell of the
+    surface, as under the corner of a punch, the title says "or more".
 
     Parameters
     ----------
-    contact : Contact, SmoothContact or RoundContact
-        A Contact must come from a HalfplaneOperator or a HalfspaceOperator.
-    poisson : float
-        Poisson's ratio of the body.
+    contact : Contact, SmoothContact, RoundContact or Field
+        A Contact must come from an operator of equal cells, those of layers included.
+    poisson : float, optional
+        Poisson's ratio of the body, 0.3 without it. Layers and fields know theirs.
     depth : float, optional
         How deep the cut goes; without it a quarter more than the contact is long; length.
     along : {'x', 'y'}
@@ -415,12 +416,13 @@ def stress(
     -------
     matplotlib Axes
     """
-    _check("stress", contact, Contact, SmoothContact, RoundContact)
+    _check("stress", contact, Contact, SmoothContact, RoundContact, Field)
     axis = _arrays.choice("along", along, {"x": 0, "y": 1})
     below = None if depth is None else _arrays.number("depth", depth)
     if below is not None and not below > 0.0:
         raise error(Status.ERR_OPTION, f"depth is {below}, but must be positive")
-    cut = cut_through(contact, _arrays.number("poisson", poisson), along, below)
+    field = _field(contact, poisson)
+    cut = cut_through(field, axis, below)
     axes = _new_axes(ax)
     levels = axes.pcolormesh(cut.place, cut.depth, cut.shear, cmap=STRESSES, shading="gouraud")
     k, i = cut.largest
@@ -429,12 +431,22 @@ def stress(
     axes.plot([cut.left, cut.right], [0.0, 0.0], color=VERMILION, linewidth=4, clip_on=False, solid_capstyle="butt")
     axes.set_aspect("equal")
     axes.set_ylim(cut.depth[-1], 0.0)
-    from_middle = " from the middle" if isinstance(contact, Contact) else ""
+    from_middle = " from the middle" if field.cells is not None else ""
     axes.set_xlabel(_label("xy"[axis] + from_middle, unit))
     axes.set_ylabel(_label("depth", unit))
     _colour_bar(axes, levels, _label("largest shear stress", pressure_unit))
     _title(axes, f"Largest shear stress: {_told_stress(cut, unit, pressure_unit)}")
     return axes
+
+
+def _field(contact: AnyContact | Field, poisson: float | None) -> Field:
+    if isinstance(contact, Field):
+        if poisson is not None:
+            raise error(Status.ERR_OPTION, "a field knows its body: leave out poisson")
+        return contact
+    if isinstance(contact, Contact) and contact.cells is not None and contact.cells.layers is not None:
+        return contact.field(poisson=poisson)
+    return contact.field(poisson=0.3 if poisson is None else poisson)
 
 
 def _told_stress(cut: Cut, unit: str | None, pressure_unit: str | None) -> str:

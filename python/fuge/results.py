@@ -71,7 +71,7 @@ def write_volume(
     depth : array_like, shape (d,)
         Ascending; length.
     results : dict of array_like, shape (d, ny, nx)
-        Such as the components of :func:`halfspace_stress_grid`.
+        Such as the components of :meth:`Field.grid_stress`.
     """
     depths = _arrays.vector("depth", depth)
     shape = _grid_shape(results, "d", "ny", "nx")

@@ -11,9 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 from fuge import _arrays
 from fuge._calls import Owner, call, interruptible, new_handle, profile_callback
 from fuge._library import struct
-from fuge.halfplane import PlaneState
-from fuge.stress import at_points, elasticity
-from fuge.stress_peak import MEASURES, Measure, StressPeak, find_peak, plane_body
+from fuge.field import Field, moduli
+from fuge.halfplane import PLANE_STATES, PlaneState
 
 Profile = Callable[[NDArray[np.float64]], "tuple[ArrayLike, ArrayLike]"]
 
@@ -79,21 +78,11 @@ class SmoothContact(Owner):
         call("fuge_smooth_get_gap", self._handle.pointer, places.size, places, initial, gap)
         return gap
 
-    def stress(self, px: ArrayLike, pz: ArrayLike) -> NDArray[np.float64]:
-        """Stresses xx, zz, xz at points in the half-plane, in closed form; see :func:`halfplane_stress`."""
-        return at_points("fuge_smooth_stress", [self._handle.pointer], 3, ("px", px), ("pz", pz))
-
-    def displacement(
-        self, young: float, poisson: float, px: ArrayLike, pz: ArrayLike, *, plane_state: PlaneState = "strain"
-    ) -> NDArray[np.float64]:
-        """Displacements along x and z at points in the half-plane; see :func:`halfplane_displacement`."""
-        arguments = [self._handle.pointer, *elasticity(young, poisson, plane_state)]
-        return at_points("fuge_smooth_displacement", arguments, 2, ("px", px), ("pz", pz))
-
-    def peak(self, poisson: float, measure: Measure = "von_mises", *, plane_state: PlaneState = "strain") -> StressPeak:
-        """The largest von Mises or Tresca stress and its place."""
-        arguments = [self._handle.pointer, *plane_body(plane_state, poisson), MEASURES.number(measure)]
-        return find_peak("fuge_smooth_peak", *arguments)
+    def field(self, *, young: float | None = None, poisson: float, plane_state: PlaneState = "strain") -> Field:
+        """Stresses and displacements in the body below, to rounding; parameters as of :meth:`Contact.field`."""
+        arguments = [*moduli(young, poisson), PLANE_STATES.number(plane_state)]
+        create = ["fuge_field_smooth", self._handle.pointer, *arguments]
+        return Field._of_punch(create, young, self.left, self.right, False)
 
 
 def solve_smooth_punch(
@@ -193,20 +182,13 @@ class RoundContact(Owner):
         call("fuge_round_get_gap", self._handle.pointer, places.size, places, initial, gap)
         return gap
 
-    def stress(self, poisson: float, pr: ArrayLike, pz: ArrayLike) -> NDArray[np.float64]:
-        """Stresses rr, tt, zz, rz at points in the half-space; see :func:`ring_stress`."""
-        arguments = [self._handle.pointer, _arrays.number("poisson", poisson)]
-        return at_points("fuge_round_stress", arguments, 4, ("pr", pr), ("pz", pz))
+    def field(self, *, young: float | None = None, poisson: float) -> Field:
+        """Stresses and displacements in the body below, to rounding; parameters as of :meth:`Contact.field`.
 
-    def displacement(self, young: float, poisson: float, pr: ArrayLike, pz: ArrayLike) -> NDArray[np.float64]:
-        """Displacements away from the axis and into the body; see :func:`ring_interior_displacement`."""
-        arguments = [self._handle.pointer, _arrays.number("young", young), _arrays.number("poisson", poisson)]
-        return at_points("fuge_round_displacement", arguments, 2, ("pr", pr), ("pz", pz))
-
-    def peak(self, poisson: float, measure: Measure = "von_mises") -> StressPeak:
-        """The largest von Mises or Tresca stress and its place."""
-        arguments = [self._handle.pointer, _arrays.number("poisson", poisson), MEASURES.number(measure)]
-        return find_peak("fuge_round_peak", *arguments)
+        In the tip of a cone zz is minus the largest number.
+        """
+        create = ["fuge_field_round", self._handle.pointer, *moduli(young, poisson)]
+        return Field._of_punch(create, young, 0.0, self.radius, True)
 
 
 def _pressed(load: float | None, approach: float | None, radius: float | None) -> list[Any]:

@@ -22,6 +22,7 @@ NOT_CALLED = {
     "fuge_get_derivative": "Solver.derivative calls fuge_get_derivatives, which is the same for any number of motions",
     "fuge_get_adjoint": "Solver.vjp calls fuge_get_gradients, which gives the same and more",
     "fuge_default_link_law": "the keywords of Links.add_support have its values as defaults",
+    "fuge_mesh_join": "join_meshes puts arrays of numpy one after the other",
 }
 
 

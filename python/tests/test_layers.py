@@ -82,10 +82,7 @@ class Bodies(unittest.TestCase):
         for call in (
             lambda: fuge.LayeredHalfplaneOperator(2, 1.0, 2e5),
             lambda: fuge.LayeredHalfspaceOperator(2, 2, 1.0, 1.0, 2e5),
-            lambda: fuge.layered_halfplane_stress_grid(2e5, 1.0, force, [1.0]),
-            lambda: fuge.layered_halfplane_stress(2e5, [0.0, 1.0], 1.0, force, [0.0], [1.0]),
-            lambda: fuge.layered_halfplane_peak(2e5, 1.0, force),
-            lambda: fuge.layered_halfplane_interfaces(2e5, 1.0, force),
+            lambda: fuge.Field.halfplane_grid(1.0, force, layers=2e5),
         ):
             with self.assertRaisesRegex(TypeError, r"layers must be Layers, not float: .* Layers\(\[\], young"):
                 call()

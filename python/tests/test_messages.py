@@ -85,10 +85,10 @@ class Places(unittest.TestCase):
         self.says("alpha", lambda: fuge.DenseOperator(np.asfortranarray(matrix)))
 
     def test_stresses(self):
-        self.says("force", lambda: fuge.halfspace_stress_grid(1.0, 1.0, self.bad, 0.3, 1.0))
-        deep = np.ones((2, 3))
-        deep[1, 2] = np.nan
-        self.says("pz", lambda: fuge.halfplane_stress([0.0], 1.0, [1.0], "mean", [0.0, 1.0, 2.0], deep), "[1, 2]")
+        self.says("force", lambda: fuge.Field.halfspace_grid(1.0, 1.0, self.bad, poisson=0.3))
+        deep = np.ones((2, 4, 3))
+        deep[1, 2, 2] = np.nan
+        self.says("points", lambda: fuge.Field.halfplane([0.0], 1.0, [1.0], poisson=0.3).stress(deep), "[1, 2, 2]")
         self.says("position", lambda: fuge.rigid_modes([[0.0, 0.0], [np.nan, 1.0], [2.0, 2.0]]), "[1, 0]")
 
     def test_shapes(self):

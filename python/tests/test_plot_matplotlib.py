@@ -89,7 +89,7 @@ class Lines(Pictures):
         area = fuge.HalfspaceOperator(12, 10, 0.1, 0.1, 2.0)
         line = fuge.HalfplaneOperator(24, 0.1, 2.0)
         wave = np.cos(np.arange(120)).reshape(10, 12)
-        for operator, gap, name in ((area, wave, "halfspace_stress"), (line, wave.ravel()[:24], "halfplane_stress")):
+        for operator, gap in ((area, wave), (line, wave.ravel()[:24])):
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", fuge.GridWarning)
                 contact = fuge.solve(operator, gap, 0.5, **tied)
@@ -97,7 +97,7 @@ class Lines(Pictures):
             with mock.patch.object(fuge._cuts, "_TRANSFORMS", 1000):
                 by_sums = fuge.plot.stress(contact).collections[0].get_array()
             a_sum = mock.Mock(side_effect=AssertionError("a sum"))
-            with mock.patch.multiple(fuge._cuts, _TRANSFORMS=0, **{name: a_sum}):
+            with mock.patch.object(fuge._cuts, "_TRANSFORMS", 0), mock.patch.object(fuge.Field, "stress", a_sum):
                 by_transforms = fuge.plot.stress(contact).collections[0].get_array()
             np.testing.assert_allclose(by_sums, by_transforms, rtol=0, atol=1e-9 * by_sums.max())
             ax = fuge.plot.line(contact)
@@ -234,19 +234,14 @@ class Stresses(Pictures):
             self.assertAlmostEqual(cross.get_xdata()[0], place, delta=self.spacing)
             self.assertEqual(ax.get_xlabel(), f"{along} from the middle")
 
-    def shear_of_grid(self, ax, tensor_at):
+    def shear_of_grid(self, ax, field):
         """The largest shear stress of all cells at the depths of a picture."""
-        return fuge.tresca(tensor_at(np.linspace(0.0, ax.get_ylim()[0], 81))).max() / 2
+        return fuge.tresca(field.grid_stress(np.linspace(0.0, ax.get_ylim()[0], 81))).max() / 2
 
     def test_periodic(self):
         contact = fuge.solve(fuge.HalfplaneOperator(48, self.spacing, 2.0, boundary="periodic"), self.line_gap, 0.2)
         ax = fuge.plot.stress(contact, poisson=0.25)
-        wanted = self.shear_of_grid(
-            ax,
-            lambda depth: fuge.halfplane_tensor(
-                fuge.halfplane_stress_grid(self.spacing, contact.force, "mean", depth, "periodic"), 0.25
-            ),
-        )
+        wanted = self.shear_of_grid(ax, contact.field(poisson=0.25))
         self.assertAlmostEqual(ax.collections[0].get_array().max() / wanted, 1.0, delta=1e-12)
 
     def test_periodic_area(self):
@@ -254,12 +249,7 @@ class Stresses(Pictures):
         contact = fuge.solve(operator, self.area_gap, 50.0)
         for along in ("x", "y"):
             ax = fuge.plot.stress(contact, along=along)
-            wanted = self.shear_of_grid(
-                ax,
-                lambda depth: fuge.halfspace_stress_grid(
-                    self.spacing, self.spacing, contact.force, 0.3, depth, "periodic_x"
-                ),
-            )
+            wanted = self.shear_of_grid(ax, contact.field(poisson=0.3))
             # The largest stress may be a cell beside the largest pressure, through which the cut goes.
             self.assertAlmostEqual(ax.collections[0].get_array().max() / wanted, 1.0, delta=5e-3)
             # A large grid has room for a few depths at a time only.
@@ -272,7 +262,7 @@ class Stresses(Pictures):
         for along in ("x", "y"):
             ax = fuge.plot.stress(self.ball, along=along)
             a_sum = mock.Mock(side_effect=AssertionError("a sum"))
-            with mock.patch.multiple(fuge._cuts, _TRANSFORMS=0, halfspace_stress=a_sum):
+            with mock.patch.object(fuge._cuts, "_TRANSFORMS", 0), mock.patch.object(fuge.Field, "stress", a_sum):
                 again = fuge.plot.stress(self.ball, along=along)
             largest = ax.collections[0].get_array().max()
             np.testing.assert_allclose(
@@ -282,14 +272,53 @@ class Stresses(Pictures):
     def test_without_a_grid(self):
         contact = fuge.solve_smooth_punch(lambda x: (x**2 / 2, x), -1.0, 1.0, 2.0, 0.2)
         ax = self.drawn(fuge.plot.stress(contact))
-        peak = contact.peak(0.3, "tresca")
+        peak = contact.field(poisson=0.3).largest("tresca")
         self.assertAlmostEqual(ax.collections[0].get_array().max() / (peak.value / 2), 1.0, delta=1e-3)
         self.assertAlmostEqual(ax.lines[0].get_ydata()[0], peak.place[2], delta=0.02)
         ball = fuge.solve_round_powers([0.05], [2.0], reach=1.0, e_star=115e3, load=50.0)
         ax = fuge.plot.stress(ball)
-        self.assertAlmostEqual(
-            ax.collections[0].get_array().max() / (ball.peak(0.3, "tresca").value / 2), 1.0, delta=1e-3
+        peak = ball.field(poisson=0.3).largest("tresca")
+        self.assertAlmostEqual(ax.collections[0].get_array().max() / (peak.value / 2), 1.0, delta=1e-3)
+
+    def test_fields(self):
+        # A field of cells and forces shows what the contact does, whose places count from the middle.
+        gap = self.x**2 / 2
+        contact = fuge.solve(fuge.halfplane_matrix(self.x, self.spacing, 2.0, "hat"), gap, 0.2)
+        cells = fuge.Field.halfplane(self.x, self.spacing, contact.force, "hat", poisson=0.3)
+        half = self.x > 0
+        part = fuge.Field.halfplane(
+            self.x[half], self.spacing, 2 * contact.force[half], "hat", poisson=0.3, symmetric=True
         )
+        wanted = cells.largest("tresca").value / 2
+        for field in (cells, part):
+            ax = self.drawn(fuge.plot.stress(field))
+            self.assertAlmostEqual(ax.collections[0].get_array().max() / wanted, 1.0, delta=2e-3)
+            edge = self.x[contact.force > 0].max() + 0.5 * self.spacing
+            np.testing.assert_allclose(ax.lines[1].get_xdata(), [-edge, edge])
+            self.assertEqual(ax.get_xlabel(), "x")
+        x, y = np.meshgrid(self.x, self.y)
+        touching = self.ball.force > 0
+        area = fuge.Field.halfspace(
+            x[touching], y[touching], self.spacing, self.spacing, self.ball.force[touching], poisson=0.3
+        )
+        wanted = fuge.plot.stress(self.ball, along="y").collections[0].get_array().max()
+        ax = fuge.plot.stress(area, along="y")
+        self.assertAlmostEqual(ax.collections[0].get_array().max() / wanted, 1.0, delta=5e-3)
+        radius = np.linspace(0.0, 0.1, 21)
+        ax = fuge.plot.stress(fuge.Field.rings(radius, np.diff(radius**2), poisson=0.3))
+        np.testing.assert_allclose(ax.lines[-1].get_xdata(), [-0.1, 0.1])
+        self.assertRaisesRegex(fuge.InputError, "knows its body", fuge.plot.stress, area, poisson=0.3)
+
+    def test_layers(self):
+        # None of the depths lies in the rigid base; a thick layer is nearly a half-space.
+        for thickness, deepest in ((0.2, 0.2), (1e3, None)):
+            layers = fuge.Layers(thickness, [1.82, np.inf], 0.3)
+            contact = fuge.solve(fuge.LayeredHalfplaneOperator(48, self.spacing, layers), self.line_gap, 0.2)
+            ax = self.drawn(fuge.plot.stress(contact))
+            self.assertEqual(ax.get_ylim()[0], deepest or ax.get_ylim()[0])
+        wanted = fuge.plot.stress(self.barrel).collections[0].get_array().max()
+        self.assertAlmostEqual(ax.collections[0].get_array().max() / wanted, 1.0, delta=2e-3)
+        self.assertRaisesRegex(fuge.InputError, "moduli of their own", fuge.plot.stress, contact, poisson=0.3)
 
     def test_without_limit(self):
         cone = fuge.solve_round_powers([1.0], [1.0], reach=10.0, e_star=1.0, load=1.0)
@@ -319,7 +348,7 @@ class Stresses(Pictures):
         layered.set_auxiliary(half_plane)
         contact = fuge.solve(layered, self.line_gap, 0.2)
         self.assertEqual(fuge.plot.line(contact).get_ylabel(), "pressure")
-        self.assertRaisesRegex(fuge.UnsupportedError, "only close to one", fuge.plot.stress, contact)
+        self.assertRaisesRegex(fuge.UnsupportedError, "only close to", fuge.plot.stress, contact)
         contact = fuge.solve(fuge.HalfplaneOperator(4, 1.0, 1.0), 0.0, 0.0)
         self.assertRaisesRegex(fuge.InputError, "press harder", fuge.plot.stress, contact)
 

@@ -23,8 +23,8 @@ class Smooth(unittest.TestCase):
         self.assertEqual(gap.shape, (2, 2))
         np.testing.assert_allclose(gap[0, 1], 0.0, atol=1e-13)
         self.assertGreater(gap[1, 1], 0.0)
-        np.testing.assert_allclose(contact.stress(0.6, 0.0), [-0.4, -0.4, 0.0], atol=1e-12)
-        self.assertEqual(contact.displacement(2.0, 0.3, x, 1.0).shape, (2, 2, 2))
+        stress = contact.field(poisson=0.3).stress([0.6, 0.0, 0.0])
+        np.testing.assert_allclose(stress, [-0.4, -0.24, -0.4, 0.0, 0.0, 0.0], atol=1e-12)
 
     def test_against_the_grid(self):
         n = 400
@@ -78,9 +78,8 @@ class Round(unittest.TestCase):
         self.assertAlmostEqual(float(contact.pressure(0.0)), hertz.peak_pressure, delta=1e-12)
         again = fuge.solve_round_powers([0.5], [2.0], 3.0, 1.0, radius=contact.radius)
         self.assertAlmostEqual(again.load, 4.0 / 3.0, delta=1e-12)
-        np.testing.assert_allclose(contact.stress(0.3, 0.0, [0.0, 1.0])[:, 3], 0.0, atol=1e-12)
-        self.assertEqual(contact.displacement(2.0, 0.3, [0.0, 1.0], 0.5).shape, (2, 2))
-        self.assertAlmostEqual(contact.peak(0.3).value / hertz.peak_pressure, 0.62, delta=0.01)
+        surface = contact.field(young=2.0, poisson=0.3).displacement([contact.radius, 0.0, 0.0])
+        self.assertAlmostEqual(surface[2], contact.approach / 2 * (1 - 0.3**2) / 2.0, delta=1e-12)
         self.assertAlmostEqual(float(contact.gap(contact.radius / 2, contact.radius**2 / 8)), 0.0, delta=1e-12)
 
     def test_cone(self):
@@ -88,7 +87,6 @@ class Round(unittest.TestCase):
         contact = fuge.solve_round_powers([1.0], [1.0], 10.0, 1.0, approach=np.pi / 2)
         self.assertAlmostEqual(contact.radius, 1.0, delta=1e-12)
         self.assertAlmostEqual(contact.load, np.pi / 2, delta=1e-12)
-        self.assertEqual(contact.peak(0.3).location, "singular")
 
     def test_edge(self):
         flat = fuge.solve_round_powers([0.5], [2.0], 10.0, 1.0, starts=[1.0], load=1.0)
