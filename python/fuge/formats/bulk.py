@@ -8,7 +8,19 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from fuge.errors import FileError, Status
-from fuge.formats.text import LARGEST_LABEL, PathLike, Place, Reason, label, quoted, read_text, refusal, value
+from fuge.formats.text import (
+    LARGEST_LABEL,
+    PathLike,
+    Place,
+    Reason,
+    label,
+    located,
+    named,
+    quoted,
+    read_text,
+    refusal,
+    value,
+)
 
 LINE_FIELDS = 8
 
@@ -60,10 +72,8 @@ class Card:
         """The number in field k, called `name` in the Reason if it is none; `default` if the field is blank."""
         if default is not None and not self.has(k):
             return default
-        try:
+        with named(name):
             return value(self.word(k))
-        except Reason as reason:
-            raise Reason(f"{name}: {reason}") from None
 
     def refuse(self, reason: object) -> FileError:
         """The error that the card is not read."""
@@ -74,11 +84,6 @@ def read_lines(path: PathLike, paths: list[str]) -> Iterator[tuple[Place, str]]:
     """The lines of a deck and of the files that it includes, up to ENDDATA, without comments and blank lines.
 
     Paths of included files begin at the folder of the first one; `paths` gets the path of each file once.
-
-    Raises
-    ------
-    FileError
-        A file cannot be read, or files include each other.
     """
     folder, included = os.path.dirname(os.fspath(path)), 0
     files = [_file_lines(path, paths)]
@@ -117,17 +122,11 @@ def _included_path(place: Place, text: str) -> str:
 
 
 def read_cards(lines: Iterable[tuple[Place, str]]) -> Iterator[Card]:
-    """The cards of bulk data, each with the fields of the lines that continue it.
-
-    Raises
-    ------
-    FileError
-        A line has fields that would be lost, or continues none.
-    """
+    """The cards of bulk data, each with the fields of the lines that continue it."""
     card: Card | None = None
     above = ""
     for place, line in lines:
-        try:
+        with located(place):
             name, fields, marker = _split(line)
             if name is not None:
                 if card is not None:
@@ -141,8 +140,6 @@ def read_cards(lines: Iterable[tuple[Place, str]]) -> Iterator[Card]:
                     # A row of eight fields begins, whatever was before.
                     card.fields += [""] * (-len(card.fields) % LINE_FIELDS)
                 card.fields += fields
-        except Reason as reason:
-            raise refusal(place, reason) from None
         above = marker
     if card is not None:
         yield card

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from fuge.deck import Conditions, Deck, DeckCase, DeckLink
-from fuge.formats.text import PathLike, Place, Reason, label, located, quoted, read_text, refusal, value
+from fuge.formats.text import PathLike, Place, Reason, label, located, named, quoted, read_text, refusal, value
 
 _LINK_COLUMNS = ("node_a", "node_b", "x", "y", "z", "gap", "play", "stiffness", "limit", "name")
 _SUPPORT_COLUMNS = ("node", "directions", "displacement")
@@ -69,10 +69,8 @@ def _link(cells: dict[str, str], name: str, place: Place) -> DeckLink:
 
 
 def _number(cells: dict[str, str], column: str, default: str = "") -> float:
-    try:
+    with named(column):
         return value(cells.get(column) or default)
-    except Reason as reason:
-        raise Reason(f"{column}: {reason}") from None
 
 
 def read_supports(deck: Deck, path: PathLike) -> None:

@@ -11,7 +11,7 @@ from pathlib import PurePath
 
 from fuge.errors import FileError
 from fuge.formats.keyword_names import KEYWORDS
-from fuge.formats.text import PathLike, Place, Reason, quoted, read_text, refusal
+from fuge.formats.text import PathLike, Place, Reason, located, named, quoted, read_text, refusal
 
 # Most files that include each other in turn, and most inclusions in all: files that include others twice double them.
 _MOST_FILES, _MOST_INCLUDED = 16, 10000
@@ -53,14 +53,12 @@ class Block:
         """The parameters by their full names; refused is one that is none of these names, and one given twice."""
         found: dict[str, str] = {}
         for text, value in self.parameters.items():
-            try:
+            with located(self.place), named(f"*{self.keyword}"):
                 name = complete(text, names)
-            except Reason as reason:
-                raise self.refuse(f"*{self.keyword}: {reason}") from None
-            if name is None:
-                raise self.refuse(f"*{self.keyword}: the parameter {quoted(text)} is not read")
-            if name in found:
-                raise self.refuse(f"*{self.keyword}: {name} is given twice")
+                if name is None:
+                    raise Reason(f"the parameter {quoted(text)} is not read")
+                if name in found:
+                    raise Reason(f"{name} is given twice")
             found[name] = value
         return found
 
@@ -147,12 +145,10 @@ def _parsed(line: str, file: _File) -> Block:
         more, continued = split_items(following)
         items += more
     text = squeezed(items[0])[1:]
-    try:
+    with located(place):
         keyword = complete(text, KEYWORDS)
-    except Reason as reason:
-        raise refusal(place, reason) from None
-    if keyword is None:
-        raise refusal(place, f"{quoted(f'*{text}')} is no keyword of Abaqus or CalculiX")
+        if keyword is None:
+            raise Reason(f"{quoted(f'*{text}')} is no keyword of Abaqus or CalculiX")
     block = Block(keyword, {}, place)
     for item in filter(None, items[1:]):
         name, _, value = item.partition("=")
@@ -175,12 +171,8 @@ def _included_path(keyword: Block, folder: str, depth: int, included: int) -> st
 def complete(text: str, words: Collection[str]) -> str | None:
     """The word that a text is or abbreviates, as Abaqus lets keywords, parameters and their values be; None if none.
 
-    A word with which all others begin that are meant is taken: ELEM is ELEMENT, although there is ELEMENTOUTPUT.
-
-    Raises
-    ------
-    Reason
-        The text begins several words.
+    A word with which all others begin that are meant is taken: ELEM is ELEMENT, although there is ELEMENTOUTPUT. Reason
+    if the text begins several others.
     """
     if text in words:
         return text

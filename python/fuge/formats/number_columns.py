@@ -9,7 +9,7 @@ from typing import Any, Callable, NamedTuple, Union
 import numpy as np
 from numpy.typing import NDArray
 
-from fuge.formats.text import LARGEST_LABEL, Reason, TextFile, label, value
+from fuge.formats.text import LARGEST_LABEL, TextFile, label, located, value
 
 Table = NDArray[np.float64]
 """A row for each column of the text; labels are exact."""
@@ -126,9 +126,7 @@ def _one_by_one(
     """The numbers in any spelling; refuses the first line that cannot be read."""
     table = np.empty((len(columns), len(items)))
     for k, item in enumerate(items):
-        try:
+        with located(file.place(int(numbers[k]))):
             words = split(item, len(columns))
             table[:, k] = [column.read(word) for column, word in zip(columns, [*words, *[""] * len(columns)])]
-        except Reason as reason:
-            raise file.refuse(int(numbers[k]), reason) from None
     return table

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fuge.errors import FileError
-from fuge.formats.text import Place, Reason, quoted, refusal, value
+from fuge.formats.text import Place, Reason, located, quoted, refusal, value
 from fuge.heights import LARGEST, first_place
 
 _COMMENT = re.compile(r"(?:^|(?<=[ \t\r,;]))[#!].*", re.DOTALL)
@@ -147,10 +147,8 @@ def read_rows(path: str, content: bytes) -> Rows:
     for count, line in islice(lines(content), form.line - 1, None):
         row = plain_heights(line, separator)
         if row is None or len(row) != form.columns:
-            try:
+            with located(Place(path, count)):
                 row = _row(line, form)
-            except Reason as reason:
-                raise refusal(Place(path, count), reason) from None
         if row:
             values.fromlist(row)
             numbers.append(count)

@@ -47,12 +47,21 @@ def refusal(place: Place | PathLike, reason: object) -> FileError:
 
 
 @contextmanager
-def located(place: Place | PathLike, name: str = "") -> Iterator[None]:
-    """Make a FileError of a Reason: it has this place, and begins with a name."""
+def located(place: Place | PathLike) -> Iterator[None]:
+    """Make a FileError with this place of a Reason."""
     try:
         yield
     except Reason as reason:
-        raise refusal(place, f"{name}: {reason}" if name else reason) from None
+        raise refusal(place, reason) from None
+
+
+@contextmanager
+def named(name: str) -> Iterator[None]:
+    """Put a name before a Reason."""
+    try:
+        yield
+    except Reason as reason:
+        raise Reason(f"{name}: {reason}") from None
 
 
 def quoted_path(path: PathLike) -> str:
@@ -70,13 +79,7 @@ def quoted(text: str) -> str:
 
 
 def read_bytes(path: PathLike) -> bytes:
-    """All of a regular file.
-
-    Raises
-    ------
-    FileError
-        It cannot be opened or read, or it is a device, a pipe or a folder.
-    """
+    """All of a regular file; FileError if it is a device, a pipe or a folder, or cannot be read."""
     if not os.fspath(path).strip():
         raise FileError("the path is blank: pass the path of a file", Status.ERR_FILE)
     try:
@@ -100,9 +103,13 @@ class TextFile:
     path: str
     lines: list[str]
 
+    def place(self, number: int) -> Place | PathLike:
+        """The place of line `number`, from 1; an empty file has no line."""
+        return Place(self.path, number) if self.lines else self.path
+
     def refuse(self, number: int, reason: object) -> FileError:
-        """The error that line `number`, from 1, cannot be read; an empty file has no line."""
-        return refusal(Place(self.path, number) if self.lines else self.path, reason)
+        """The error that line `number` cannot be read."""
+        return refusal(self.place(number), reason)
 
 
 def read_text(path: PathLike) -> TextFile:
@@ -148,13 +155,7 @@ def label(text: str, name: str, least: int = 1, most: int = LARGEST_LABEL) -> in
 
 
 def write_text(path: PathLike, parts: Iterable[str]) -> None:
-    """Create a file, or replace it.
-
-    Raises
-    ------
-    FileError
-        It cannot be opened, or not be written to its end; it is then empty.
-    """
+    """Create a file, or replace it; FileError if it cannot be opened, or not be written: it is then empty."""
     if not os.fspath(path).strip():
         raise FileError("the path is blank: pass the path of a file", Status.ERR_FILE)
     opened = False
