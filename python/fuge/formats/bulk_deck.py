@@ -51,8 +51,9 @@ _Readers = dict[str, Callable[[Card], None]]
 
 
 def _read(cards: Iterable[Card], readers: _Readers) -> None:
+    harmless = set(HARMLESS_CARDS)
     for card in cards:
-        if card.name in HARMLESS_CARDS:
+        if card.name in harmless:
             continue
         try:
             for k in card.filled(_LAST_FIELD.get(card.name, len(card.fields)) + 1):

@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from fuge.formats.matrix_rows import Entries
-from fuge.formats.number_columns import BLANKS, Column, blocks, read_words
-from fuge.formats.text import Reason, TextFile, located, quoted, refusal, whole
+from fuge.formats.number_columns import Column, blocks, read_words
+from fuge.formats.text import BLANKS, Reason, TextFile, located, quoted, refusal, whole
 
 
 class Op4Header(NamedTuple):

@@ -25,6 +25,11 @@ _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eEdD]([+-]?\d+)|([+-]\d+))?
 _NOT_FINITE = re.compile(r"[+-]?(?:nan|inf(?:inity)?)", re.IGNORECASE)
 _WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 
+BLANKS = " \t\r"
+# Columns stand between commas or semicolons, else between blanks.
+_SEPARATOR = re.compile(r"[ \t\r]*([,;])[ \t\r]*|[ \t\r]+")
+_COMMENT = re.compile(r"(?<![^ \t\r,;])[#!].*", re.DOTALL)
+
 
 class Reason(Exception):
     """Why a line cannot be read; whoever knows its place makes a FileError of it."""
@@ -121,6 +126,13 @@ def read_text(path: PathLike) -> TextFile:
     if lines[-1] == "":
         lines.pop()
     return TextFile(os.fspath(path), [line.removesuffix("\r") for line in lines])
+
+
+def split_columns(line: str) -> tuple[list[str], list[str]]:
+    """The columns of a line up to a comment, and the separators after them; the last column may have one."""
+    content = _COMMENT.sub("", line).strip(BLANKS)
+    parts = _SEPARATOR.split(content) if content else []
+    return parts[::2] if content and parts[-1] else parts[:-1:2], [separator or " " for separator in parts[1::2]]
 
 
 def value(text: str) -> float:
