@@ -1,15 +1,13 @@
 """Decks of Nastran: each card, in each form, and what is refused, with its line."""
 
 import os
-import tempfile
 import time
 import tracemalloc
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-import fuge
+from files import InFolder
 from fuge.formats.bulk_deck import read_bulk_deck
 from fuge.formats.force_table import find_one_way_law
 from fuge.formats.text import Reason
@@ -32,16 +30,15 @@ def values(conditions):
     return {f"{node}.{direction}": value.value for (node, direction), value in conditions.items()}
 
 
-class Decks(unittest.TestCase):
+class Decks(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
+        super().setUp()
         self.addCleanup(os.chdir, os.getcwd())
-        os.chdir(folder.name)
+        os.chdir(self.folder)
 
     def read(self, content, part=""):
-        Path("part").write_bytes(part.encode())
-        Path("deck").write_bytes(content.encode())
+        self.file("part", part)
+        self.file("deck", content)
         return read_bulk_deck("deck")
 
     def cases(self, content, part=""):
@@ -49,9 +46,7 @@ class Decks(unittest.TestCase):
 
     def refuse(self, content, words, part=""):
         with self.subTest(content):
-            with self.assertRaises(fuge.FileError) as caught:
-                self.read(content, part)
-            self.assertIn(words, str(caught.exception))
+            self.refused(words, self.read, content, part)
 
     def test_gap_in_all_forms(self):
         rest = in_fields("CGAP", 7, 9, 1, 2)
