@@ -127,7 +127,7 @@ class Grids(Files):
         ]:
             self.assertRaisesRegex(fuge.Error, part, fuge.write_surface, self.path, heights, spacing)
         self.assertEqual(self.path.read_bytes(), written)
-        self.assertRaisesRegex(fuge.FileError, "cannot be written", fuge.write_surface, self.path / "a", height)
+        self.assertRaisesRegex(fuge.FileError, "cannot be opened", fuge.write_surface, self.path / "a", height)
 
 
 class Points(Files):

@@ -46,17 +46,9 @@ def _link(cells: dict[str, str], name: str, place: Place) -> DeckLink:
     # Any length of a direction can be squared once its largest component is 1.
     length = math.hypot(x / largest, y / largest, z / largest)
     direction = (x / largest / length, y / largest / length, z / largest / length)
-    return DeckLink(
-        cells.get("name") or name,
-        node_a,
-        node_b,
-        direction,
-        gap,
-        math.inf if play < 0.0 else play,
-        1.0 / stiffness if stiffness else 0.0,
-        math.inf if limit < 0.0 else limit,
-        place,
-    )
+    play, limit = (math.inf if number < 0.0 else number for number in (play, limit))
+    compliance = 1.0 / stiffness if stiffness else 0.0
+    return DeckLink(cells.get("name") or name, node_a, node_b, direction, gap, play, compliance, limit, place)
 
 
 def _number(cells: dict[str, str], column: str, default: str = "") -> float:

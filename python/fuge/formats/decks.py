@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from fuge.deck import Deck
+from fuge.formats.bulk_deck import read_bulk_deck
+from fuge.formats.keyword_deck import read_keyword_deck
 from fuge.formats.text import PathLike, read_text
 
 
@@ -19,11 +21,7 @@ def read_deck(path: PathLike) -> Deck:
         answer.
     """
     if has_keywords(read_text(path).lines):
-        from fuge.formats.keyword_deck import read_keyword_deck
-
         return read_keyword_deck(path)
-    from fuge.formats.bulk_deck import read_bulk_deck
-
     return read_bulk_deck(path)
 
 

@@ -32,11 +32,6 @@ def read_keyword_deck(path: PathLike) -> Deck:
     GAPUNI, GAPCYL and GAPSPHER with *GAP are links, *BOUNDARY and *CLOAD are conditions, and each static *STEP is a
     load case, called as its NAME if no other step is. What could change the answer otherwise is refused; in a step only
     if that, or a later one to which it is handed on, is a load case. A :class:`FileWarning` tells of NLGEOM.
-
-    Raises
-    ------
-    FileError
-        The message has the file, the line, the keyword and the reason.
     """
     deck = Deck()
     others: list[Block] = []

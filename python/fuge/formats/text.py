@@ -171,6 +171,7 @@ def write_text(path: PathLike, parts: Iterable[str]) -> None:
     if not os.fspath(path).strip():
         raise FileError("the path is blank: pass the path of a file", Status.ERR_FILE)
     opened = False
+    # Half of a matrix or a surface could be read as a smaller one.
     try:
         with open(path, "w", encoding="utf-8", newline="") as file:
             opened = True
