@@ -223,7 +223,7 @@ class Decks(InFolder):
             ("BEGIN SUPER=1", "line 6: the name"),
             ("include no_such", '"no_such" cannot be opened'),
             ("include 'no_such", "line 6: INCLUDE needs a path in quotes"),
-            ("include 'deck'", "line 6: too many files are included"),
+            ("include 'deck'", "line 6: more than 16 files include each other"),
             # Bulk data alone: all sets of loads, and all of supports, must belong to one.
             ("FORCE,3,1,,1.,1.\nGRAV,2,,9.81,0.,0.,-1.", "line 7: the set 2 is another one than 3"),
             ("FORCE,1,1,,1.,1.\nSPC,3,2,1\nSPCD,2,2,1,.5", "line 8: the set 2 is another one than 1"),

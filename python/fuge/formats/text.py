@@ -20,6 +20,9 @@ LARGEST_LABEL = 2**31 - 1
 # Ends of long paths and beginnings of long words in messages.
 _PATH_LENGTH, _QUOTE_LENGTH = 100, 24
 
+# Most files that include each other in turn, and most inclusions in all: files that include others twice double them.
+_MOST_FILES, _MOST_INCLUDED = 16, 10000
+
 # 1.5, .5e3, 1d-4 and, as Nastran has it, 3.+5.
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eEdD]([+-]?\d+)|([+-]\d+))?", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(?:nan|inf(?:inity)?)", re.IGNORECASE)
@@ -126,6 +129,29 @@ def read_text(path: PathLike) -> TextFile:
     if lines[-1] == "":
         lines.pop()
     return TextFile(os.fspath(path), [line.removesuffix("\r") for line in lines])
+
+
+class Inclusions:
+    """Reads a file and those that it includes, whose paths begin at its folder; `paths` gets the path of each once."""
+
+    def __init__(self, path: PathLike, paths: list[str]) -> None:
+        self._folder, self._paths, self._count = os.path.dirname(os.fspath(path)), paths, 0
+
+    def read(self, path: PathLike) -> TextFile:
+        """The file itself."""
+        file = read_text(path)
+        if file.path not in self._paths:
+            self._paths.append(file.path)
+        return file
+
+    def include(self, path: str, depth: int) -> TextFile:
+        """A file that is included while `depth` files are open; Reason if there are too many, or too many in all."""
+        self._count += 1
+        if depth == _MOST_FILES:
+            raise Reason(f"more than {_MOST_FILES} files include each other: does one include itself?")
+        if self._count > _MOST_INCLUDED:
+            raise Reason(f"more than {_MOST_INCLUDED} files are included: do they include others twice?")
+        return self.read(os.path.join(self._folder, path))
 
 
 def split_columns(line: str) -> tuple[list[str], list[str]]:
