@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from fuge.errors import FileError, Status
-from fuge.formats.text import Inclusions, PathLike, Place, Reason, TextFile, label, located, named, quoted, value
+from fuge.formats.text import Inclusions, PathLike, Place, Reason, TextFile, label, located, quoted, value
 
 LINE_FIELDS = 8
 
@@ -56,8 +56,10 @@ class Card:
         """The number in field k, called `name` in the Reason if it is none; `default` if the field is blank."""
         if default is not None and not self.has(k):
             return default
-        with named(name):
+        try:
             return value(self.word(k))
+        except Reason as reason:
+            raise Reason(f"{name}: {reason}") from None
 
     def refuse(self, reason: object) -> FileError:
         """The error that the card is not read."""

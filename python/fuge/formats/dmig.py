@@ -15,7 +15,7 @@ import numpy as np
 
 from fuge.formats.matrix_rows import DIRECTIONS, Entries
 from fuge.formats.number_columns import Column, Table, blocks, label_column, read_words
-from fuge.formats.text import BLANKS, Reason, TextFile, label, located, quoted, refusal
+from fuge.formats.text import BLANKS, Reason, TextFile, label, quoted, refusal
 
 _SYMMETRIC, _SQUARE = 6, 1
 
@@ -38,7 +38,7 @@ def read_dmig(file: TextFile, name: str) -> Entries:
     for k, end in zip(cards, [*cards[1:], len(file.lines)]):
         if file.lines[k][:8].strip(" ")[:4].lower() != "dmig":
             continue
-        with located(file.place(k + 1)):
+        try:
             found, node, *fields = _head(file, k)
             wanted = wanted or found
             if found.lower() != wanted.lower():
@@ -56,6 +56,8 @@ def read_dmig(file: TextFile, name: str) -> Entries:
                     raise Reason(f"{quoted(fields[1])} stands where a column has a blank field")
                 if end < len(file.lines) and not re.match(" *[A-Za-z]", file.lines[end]):
                     raise file.refuse(end + 1, "neither a card nor a continuation of the DMIG above")
+        except Reason as reason:
+            raise file.refuse(k + 1, reason) from None
     if not heads:
         no_matrix = f"no matrix {quoted(name)}, but {quoted(other)}"
         raise refusal(file.path, f"the file has {no_matrix if other else 'no entry of a DMIG matrix'}")

@@ -54,13 +54,18 @@ def refusal(place: Place | PathLike, reason: object) -> FileError:
     return FileError(f"{where}: {reason}", Status.ERR_FILE)
 
 
-@contextmanager
-def located(place: Place | PathLike) -> Iterator[None]:
-    """Make a FileError with this place of a Reason."""
-    try:
-        yield
-    except Reason as reason:
-        raise refusal(place, reason) from None
+class located:
+    """A context that makes a FileError with this place of a Reason."""
+
+    def __init__(self, place: Place | PathLike) -> None:
+        self._place = place
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, reason: object, trace: object) -> None:
+        if isinstance(reason, Reason):
+            raise refusal(self._place, reason) from None
 
 
 @contextmanager
