@@ -168,7 +168,10 @@ class Decks(InFolder):
             ("*CONNECTOR SECTION, ELSET=G", "line 10: *CONNECTORSECTION is not read, and could change the answer"),
             ("*ELEMENT, TYPE=CONN3D2", 'line 10: elements of type "CONN3D2" are not read here'),
             ("*ELEMENT, TYPE=GAPUNIT", "line 10: elements of type"),
-            ("*INITIAL CONDITIONS, TYPE=STRESS", 'line 10: *INITIALCONDITIONS: TYPE="STRESS" is not read, only'),
+            (
+                "*INITIAL CONDITIONS, TYPE=STRESS",
+                'line 10: *INITIALCONDITIONS: TYPE="STRESS" is not read, only FIELD',
+            ),
             ("*MATERIAL, NAME=TENSION_ONLY1", "line 10: materials for one sign only"),
             ("*PLASTIC", "line 10: *PLASTIC is not read here: materials are linear"),
             ("*RESTART, READ", 'line 10: *RESTART: the parameter "READ" is not read'),
