@@ -301,8 +301,8 @@ ALONE = [
 FILES = [
     ("node,axis,value\nTOP,y,-1\nTOP,y,two\n", 'line 3: a number is needed, not "two"'),
     ("# nodes\n\nTOP;y\n", "line 3: nodes, an axis and a force are needed"),
-    ("TOP\ty\t\t-1\n", "line 1: nodes, an axis and a force are needed"),
-    ("node,force,value\n", "line 1: the columns are nodes, axes and value, each once"),
+    ("TOP\ty\t\t-1\n", "line 1: there are more columns than nodes, axes, value"),
+    ("node,force,value\n", 'line 1: two columns have the name "value"'),
     ("node,axis,stiffness\nTOP,y,-1\n", 'line 1: "axis" is no axis'),
     ("BOTOM,y,1\n", 'line 1: body upper has no set of nodes "BOTOM"'),
     ("node,axis,value\n", "has no line like 17,z,-100"),

@@ -6,6 +6,7 @@ import unittest
 import numpy as np
 
 import fuge
+from files import InFolder
 from fuge.deck import Conditions, DeckCase, DeckLink
 from fuge.formats.text import Place, Reason
 
@@ -41,13 +42,7 @@ def a_deck():
     return deck
 
 
-class Rows(unittest.TestCase):
-    def refused(self, error, words, call, *arguments):
-        with self.assertRaises(error) as caught:
-            call(*arguments)
-        self.assertIn(words, str(caught.exception))
-        return caught.exception
-
+class Rows(InFolder):
     def test_arrays(self):
         deck = a_deck()
         self.assertEqual((deck.link_names, deck.case_names), (["between", "ground"], ["A", "B"]))
@@ -98,23 +93,22 @@ class Rows(unittest.TestCase):
             (deck.supports, [2, unit_matrix()], "load case 2 is outside 0 .. 1"),
         ):
             with self.subTest(words=words):
-                self.refused(fuge.InputError, words, call, *arguments)
+                self.refused(words, call, *arguments, error=fuge.InputError)
         deck._links = [DeckLink("across", 1, 0, (0.0, 1.0, 0.0), place=PLACE)]
-        self.refused(
-            fuge.InputError, '"m.inp", line 3, across: no row of the matrix moves it', deck.links, unit_matrix()
-        )
+        words = '"m.inp", line 3, across: no row of the matrix moves it'
+        self.refused(words, deck.links, unit_matrix(), error=fuge.InputError)
 
     def test_eliminated_rows(self):
         """A row that is missing for another reason than a support, such as an equation, must not become the ground."""
         deck, matrix = fuge.Deck(), unit_matrix([17, 30], [1, 3])
         deck._links = [DeckLink("between", 17, 30, (0.0, 1e-16, 1.0), 0.5)]
         reason = "no row of node 17, direction 3, but {} there"
-        self.refused(fuge.InputError, reason.format("no support is"), deck.links, matrix)
+        self.refused(reason.format("no support is"), deck.links, matrix, error=fuge.InputError)
         deck._supports = conditions((17, 3, 0.0))
         self.assertEqual(deck.links(matrix).count, 1)
         both, one = conditions((17, 1, 0.0), (17, 3, 0.0)), conditions((17, 1, 0.0))
         deck._cases = [DeckCase("A", conditions(), both), DeckCase("B", conditions(), one)]
-        self.refused(fuge.InputError, reason.format("B has no support"), deck.links, matrix)
+        self.refused(reason.format("B has no support"), deck.links, matrix, error=fuge.InputError)
 
     def test_conditions(self):
         forces = Conditions()
@@ -124,7 +118,8 @@ class Rows(unittest.TestCase):
         forces.add((4, 1), -3.0, PLACE, 2)
         self.assertEqual(forces[4, 1].value, 5.0)
         held = conditions((4, 1, 0.5), (4, 1, 0.5))
-        self.refused(Reason, 'by 0.25 in direction 1, but by 0.5 in "m.inp", line 3', held.hold, (4, 1), 0.25, PLACE)
+        words = 'by 0.25 in direction 1, but by 0.5 in "m.inp", line 3'
+        self.refused(words, held.hold, (4, 1), 0.25, PLACE, error=Reason)
         held.hold((4, 1), 0.25, PLACE, 1)
         self.assertEqual(held[4, 1].value, 0.25)
 

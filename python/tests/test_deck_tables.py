@@ -1,13 +1,12 @@
 """Tables of links, supports and load cases."""
 
 import math
-import tempfile
 import unittest
 from pathlib import Path
 
 import numpy as np
 
-import fuge
+from files import InFolder
 from fuge.deck import Deck
 from fuge.formats.bulk_deck import read_bulk_deck
 
@@ -15,17 +14,14 @@ INF = math.inf
 DATA = Path(__file__).resolve().parents[2] / "examples" / "data" / "cantilever"
 
 
-class Tables(unittest.TestCase):
+class Tables(InFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = Path(folder.name) / "table"
+        super().setUp()
         self.deck = Deck()
 
     def read(self, kind, content):
         """Add a table to the deck."""
-        self.path.write_bytes(content.encode())
-        getattr(self.deck, f"read_{kind}")(self.path)
+        getattr(self.deck, f"read_{kind}")(self.file("table", content))
 
     def link(self, content):
         """Name, nodes, direction and law of the only link of a table."""
@@ -37,9 +33,7 @@ class Tables(unittest.TestCase):
     def refuse(self, kind, content, words):
         with self.subTest(content):
             before = (repr(self.deck), list(self.deck.paths))
-            with self.assertRaises(fuge.FileError) as caught:
-                self.read(kind, content)
-            self.assertIn(words, str(caught.exception))
+            self.refused(words, self.read, kind, content)
             self.assertEqual((repr(self.deck), self.deck.paths), before)
 
     def test_links(self):
@@ -51,7 +45,7 @@ class Tables(unittest.TestCase):
         laws = [self.deck.gap, self.deck.play, self.deck.compliance, self.deck.limit]
         np.testing.assert_array_equal(laws, [[0.5, 0, 0], [INF, 1, INF], [0, 0.125, 0], [INF, 20, INF]])
         self.assertEqual([link.place.line for link in self.deck._links], [3, 5, 1])
-        self.assertEqual(self.deck.paths, [str(self.path)] * 2)
+        self.assertEqual(self.deck.paths, [str(self.folder / "table")] * 2)
 
     def test_columns(self):
         x = (1.0, 0.0, 0.0)

@@ -1,13 +1,12 @@
 """Decks of Abaqus and CalculiX: gap elements, supports, steps, and what is refused, with its line."""
 
-import tempfile
 import unittest
 import warnings
-from pathlib import Path
 
 import numpy as np
 
 import fuge
+from files import InFolder
 from fuge.formats.keyword_deck import read_keyword_deck
 
 # A slash stands for the end of a line. Lines 1 to 5, to 7, to 9, and to 11.
@@ -24,23 +23,15 @@ def values(conditions):
     return {dof: condition.value for dof, condition in conditions.items()}
 
 
-class Decks(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.path = Path(holder.name) / "m.inp"
-
+class Decks(InFolder):
     def read(self, text):
-        self.path.write_text(text.replace("/", "\n"), encoding="utf-8")
-        return read_keyword_deck(self.path)
+        return read_keyword_deck(self.file("m.inp", text.replace("/", "\n")))
 
     def refuses(self, begin, *lines_and_words):
         """Each of the lines, behind a beginning, with these words."""
         for lines, words in lines_and_words:
             with self.subTest(lines):
-                with self.assertRaises(fuge.FileError) as caught:
-                    self.read(begin + lines)
-                self.assertIn(words, str(caught.exception))
+                self.refused(words, self.read, begin + lines)
 
     def cases(self, text):
         """For each case its name, forces and supports."""
@@ -53,7 +44,8 @@ class Decks(unittest.TestCase):
         np.testing.assert_allclose(deck.direction, [[0, 0, 1], [0.6, 0.8, 0], [0, 0, -1]], rtol=1e-15)
         np.testing.assert_array_equal([deck.gap, deck.compliance], [[0.5, -0.25, -0.25], [0, 0.005, 0.005]])
         self.assertTrue(np.isinf([deck.limit, deck.play]).all())
-        self.assertEqual((str(deck._links[0]), deck.paths), (f'"{self.path}", line 9, GAPUNI 7', [str(self.path)]))
+        path = str(self.folder / "m.inp")
+        self.assertEqual((str(deck._links[0]), deck.paths), (f'"{path}", line 9, GAPUNI 7', [path]))
 
     def test_round_gaps(self):
         """A tube in a tube, tubes beside each other, and an inextensible cable."""

@@ -1,14 +1,13 @@
 """Matrix Market files."""
 
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 import scipy.io
 import scipy.sparse
 
 import fuge
+from files import InFolder
 
 ARRAY = "%%MatrixMarket matrix array real general\n"
 LOWER_ARRAY = "%%MatrixMarket matrix array real symmetric\n"
@@ -85,18 +84,6 @@ def numbers(n):
     return matrix
 
 
-class InFolder(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = Path(holder.name)
-
-    def file(self, name, text):
-        path = self.folder / name
-        path.write_text(text, encoding="utf-8")
-        return path
-
-
 class MatrixMarket(InFolder):
     def test_reading(self):
         for text, matrix in READ:
@@ -106,19 +93,16 @@ class MatrixMarket(InFolder):
                 sparse = fuge.read_sparse(path)
                 self.assertEqual(sparse.shape, np.shape(matrix))
                 np.testing.assert_array_equal(sparse.tocsc().toarray(), matrix)
-                steps = np.diff(
-                    sparse.row + sparse.shape[0] * np.repeat(np.arange(sparse.shape[1]), np.diff(sparse.column))
-                )
-                self.assertTrue(np.all(steps > 0))
+                columns = np.repeat(np.arange(sparse.shape[1]), np.diff(sparse.column))
+                self.assertTrue(np.all(np.diff(sparse.row + sparse.shape[0] * columns) > 0))
 
     def test_refusals(self):
         for text, line, reason in REFUSED:
             for read in (fuge.read_matrix, fuge.read_sparse):
-                with self.subTest(text[:80], read=read), self.assertRaises(fuge.FileError) as caught:
-                    read(self.file("a.mtx", text))
-                place = f'"{self.folder}/a.mtx"' + (f", line {line}: " if line else ": ")
-                self.assertEqual(caught.exception.message[: len(place)], place)
-                self.assertIn(reason, caught.exception.message)
+                with self.subTest(text[:80], read=read):
+                    message = self.refused(reason, read, self.file("a.mtx", text))
+                    place = f'"{self.folder}/a.mtx"' + (f", line {line}: " if line else ": ")
+                    self.assertEqual(message[: len(place)], place)
         for path, reason in ((self.folder / "none.mtx", "cannot be opened"), (self.folder, "folder"), (" ", "blank")):
             self.assertRaisesRegex(fuge.FileError, reason, fuge.read_matrix, path)
 

@@ -49,7 +49,7 @@ endforeach()
 
 set(scripts "")
 file(GLOB plots "${ROOT}/examples/plots/*.gp" "${ROOT}/bench/*.gp" "${ROOT}/doc/site/*.gp" "${ROOT}/doc/site/components.py"
-  "${ROOT}/CONTRIBUTING.md")
+  "${ROOT}/examples/calculix/pictures.py" "${ROOT}/CONTRIBUTING.md")
 foreach(plot IN LISTS plots)
   read_text("${plot}" text)
   string(APPEND scripts "${text}")

@@ -6,6 +6,7 @@ file(GLOB pages "${ROOT}/*.md")
 file(COPY ${pages} DESTINATION "${SCRATCH}")
 file(COPY "${ROOT}/doc" DESTINATION "${SCRATCH}")
 file(COPY "${ROOT}/examples/plots" DESTINATION "${SCRATCH}/examples")
+file(COPY "${ROOT}/examples/calculix/pictures.py" DESTINATION "${SCRATCH}/examples/calculix")
 file(GLOB plots "${ROOT}/bench/*.gp")
 file(COPY ${plots} DESTINATION "${SCRATCH}/bench")
 
@@ -41,6 +42,8 @@ expect_error(doc/errata.md "\\(disc.png\\)" "(disk.png)"
   "doc/errata.md shows disk.png, which is not there no page shows doc/disc.png")
 expect_error(examples/plots/disc.gp "eval picture\\(\"disc\"" "eval picture(\"disk\""
   "no script makes doc/disc.png examples/plots/disc.gp does not begin disc.png by picture() of style.gp")
+expect_error(examples/calculix/pictures.py "doc/calculix_two_bodies[.]png" "a picture"
+  "no script makes doc/calculix_two_bodies.png")
 expect_error(doc/conventions.svg "drawn by hand" "" "no script makes doc/conventions.svg")
 file(WRITE "${SCRATCH}/doc/unlinked.csv" "1\n")
 expect("A table" "no page links doc/unlinked.csv")

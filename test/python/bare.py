@@ -1,7 +1,7 @@
-"""Install a wheel into a system that has nothing but Python, numpy and the C library, and use it there.
+"""Install a wheel into a system that has nothing but Python, numpy, scipy and the C library, and use it there.
 
 bare.py PROGRAM SCRATCH WHEEL: Python runs PROGRAM in a folder that is the root of all files for it. The folder has this
-Python with its standard library, numpy of this Python, and of the libraries of this system those that Python's own
+Python with its standard library, numpy and scipy of this Python, and of the libraries of this system those that Python's own
 modules need and those that every wheel may count on. There is no shell, no compiler, no Fortran, no BLAS, no FFTW.
 WHEEL is a file, or a folder with its content.
 """
@@ -38,7 +38,7 @@ def copy(path: Path, root: Path) -> None:
 
 
 def install_python(root: Path) -> Path:
-    """This Python, its standard library, and numpy; the path of Python."""
+    """This Python and its standard library; the path of Python."""
     python = Path(os.path.realpath(sys.executable))
     library = Path(sysconfig.get_path("stdlib"))
     copy(python, root)
@@ -51,7 +51,7 @@ def install_python(root: Path) -> Path:
 
 
 def install_wheels(wheel: Path, root: Path) -> Path:
-    """The wheel, and numpy as it is; the folder of both."""
+    """The wheel, and numpy and scipy as they are; the folder of all."""
     import numpy
 
     site = root / "site"
@@ -61,7 +61,7 @@ def install_wheels(wheel: Path, root: Path) -> Path:
         pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
         subprocess.run([*pip, "--no-index", "--no-deps", "--no-compile", "--target", str(site), str(wheel)], check=True)
     source = Path(numpy.__file__).parents[1]
-    for folder in ["numpy", "numpy.libs"]:
+    for folder in ["numpy", "numpy.libs", "scipy", "scipy.libs"]:
         shutil.copytree(source / folder, site / folder, ignore=shutil.ignore_patterns("tests", "__pycache__"))
     for file in site.rglob("*.so*"):
         for found in needed(file):

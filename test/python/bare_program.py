@@ -7,6 +7,7 @@ import sys
 import numpy as np
 
 import fuge
+from fuge.command import main
 
 if any(os.path.exists(path) for path in ["/bin/sh", "/usr/bin/gcc", "/usr/bin/gfortran"]):
     sys.exit("this is no bare system")
@@ -42,4 +43,13 @@ except fuge.FileError as error:
     print(error)
 else:
     sys.exit("a file that does not exist was read")
+# The command, without a shell.
+with open("/alpha.mtx", "w") as file:
+    file.write("%%MatrixMarket matrix array real symmetric\n2 2\n0.2\n0.1\n0.2\n")
+with open("/gap.mtx", "w") as file:
+    file.write("%%MatrixMarket matrix array real general\n2 1\n0\n1\n")
+if main(["--alpha", "/alpha.mtx", "--gap", "/gap.mtx", "--load", "2", "--output", "/result.csv"]) != 0:
+    sys.exit("the command has failed")
+if "\n1, 2.0000000000000000E+000, 0.0000000000000000E+000,contact\n" not in open("/result.csv").read():
+    sys.exit("the command has written a wrong table")
 print("fuge", fuge.__version__, "with" if with_sparse else "without", "sparse matrices")

@@ -1,6 +1,6 @@
 # A wheel with a library that is there already, and an editable installation, each in an environment of its own:
 # cmake -D BUILDER=python -D PYTHON=python -D SOURCE_DIR=.. -D LIBRARY_DIR=.. -D SCRATCH=.. -P wheel.cmake
-# BUILDER has pip and scikit-build-core, PYTHON has numpy. No network is needed.
+# BUILDER has pip and scikit-build-core, PYTHON has numpy and scipy. No network is needed.
 cmake_minimum_required(VERSION 3.20)
 
 # Arguments without a semicolon.
@@ -28,7 +28,7 @@ set(ENV{PYTHONDONTWRITEBYTECODE} 1)
 unset(ENV{FUGE_LIBRARY_DIR})
 unset(ENV{PYTHONPATH})
 
-# install(name wheel): into the environment `name`, which sees numpy where PYTHON has it.
+# install(name wheel): into the environment `name`, which sees numpy and scipy where PYTHON has numpy.
 function(install name wheel)
   run("${PYTHON}" -m venv --without-pip "${SCRATCH}/${name}")
   set(venv_python "${SCRATCH}/${name}/bin/python")

@@ -1,4 +1,4 @@
-# The wheel of script/wheel solves where there is nothing but Python and numpy, and a plain wheel does not.
+# The wheel of script/wheel solves where there is nothing but Python, numpy and scipy, and a plain wheel does not.
 # cmake -D PYTHON=python -D SOURCE_DIR=.. -D SCRATCH=.. -D FORTRAN=.. -D FFTW=ON|OFF -D SPARSE=1|0 -P wheel_bare.cmake
 # PYTHON is that of build/tools. No network is needed.
 cmake_minimum_required(VERSION 3.20)

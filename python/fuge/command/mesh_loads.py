@@ -13,18 +13,21 @@ from fuge.command.face_forces import pressure_forces
 from fuge.command.mesh_model import AXES, MeshBody, MeshModel, Refuse, dimensions_of, is_ring
 from fuge.command.options import Options, Setting
 from fuge.errors import FileError, Status
+from fuge.formats.decks import has_keywords
 from fuge.formats.keyword import read_blocks, split_items
 from fuge.formats.keyword_rules import parameters_of
-from fuge.formats.text import Place, Reason, quoted_path, read_text, refusal, value
+from fuge.formats.tables import named_rows
+from fuge.formats.text import Reason, quoted_path, read_text, refusal, value
 
 _DIRECTIONS = {str(k + 1): k for k in range(len(AXES))}
 _LETTERS = {**_DIRECTIONS, **{letter: "xyz".index(letter.lower()) for letter in "xyzXYZ"}}
 
-# Headings of the columns of a table.
+# The columns of a table, and their names in headings.
+_COLUMNS = ("nodes", "axes", "value")
 _HEADINGS = {
-    **dict.fromkeys(("node", "nodes"), 0),
-    **dict.fromkeys(("axis", "axes", "direction", "directions"), 1),
-    **dict.fromkeys(("value", "force", "load", "displacement"), 2),
+    **dict.fromkeys(("node", "nodes"), "nodes"),
+    **dict.fromkeys(("axis", "axes", "direction", "directions"), "axes"),
+    **dict.fromkeys(("value", "force", "load", "displacement"), "value"),
 }
 
 
@@ -161,41 +164,25 @@ def _file(given: Options, setting: Setting, kind: _Kind, model: MeshModel) -> It
     named = (f"{body.name}." for body in model.bodies if equals and body.name.upper() == name.upper())
     body = next(named, "")
     path = setting.path(len(body))
-    lines = [line.partition("#")[0].strip(" \r") for line in read_text(path).lines]
-    begin = next((line for line in lines if line and not line.startswith("**")), "")
-    found = _deck(given, path, kind) if begin[:1] == "*" else _table(path, lines, kind)
+    found = _deck(given, path, kind) if has_keywords(read_text(path).lines) else _table(path, kind)
     conditions = [condition._replace(nodes=body + condition.nodes) for condition in found]
     if not conditions:
         raise FileError(f"{quoted_path(path)} has no line like {kind.line}", Status.ERR_FILE)
     return iter(conditions)
 
 
-def _table(path: str, lines: Sequence[str], kind: _Kind) -> Iterator[_Condition]:
+def _is_heading(cells: Sequence[str]) -> bool:
+    """Whether all cells are names of columns; those of nodes may begin with a letter too."""
+    return all(cell.lower() in _HEADINGS for cell in cells)
+
+
+def _table(path: str, kind: _Kind) -> Iterator[_Condition]:
     """Lines NODES, AXES and VALUE; a heading may give the columns another order."""
-    order: list[int] = []
-    for number, line in enumerate(lines, 1):
-        if not line or line.startswith("**"):
-            continue
-        cells = _cells(line)
-        refuse: Refuse = partial(refusal, Place(path, number))
-        if not order:
-            order = [_HEADINGS.get(cell.lower(), -1) for cell in cells]
-            if -1 not in order and sorted(order) != list(range(len(order))):
-                raise refuse("the columns are nodes, axes and value, each once")
-            if -1 not in order:
-                continue
-            order = [0, 1, 2]
-        row = dict(zip(order, cells))
-        if not kind.least <= len(cells) <= len(order) or not {0, 1} <= row.keys():
+    for place, row in named_rows(path, _COLUMNS, _HEADINGS, _is_heading):
+        refuse: Refuse = partial(refusal, place)
+        if len(row) < kind.least or not {"nodes", "axes"} <= row.keys():
             raise refuse(kind.needed)
-        yield _condition(refuse, row[0], row[1], row.get(2))
-
-
-def _cells(line: str) -> list[str]:
-    """What stands between semicolons, commas or tabs, or else blanks; an empty last cell does not count."""
-    separator = next((mark for mark in ";,\t" if mark in line), None)
-    cells = [cell.strip() for cell in line.split(separator)]
-    return cells if cells[-1] else cells[:-1]
+        yield _condition(refuse, row["nodes"], row["axes"], row.get("value"))
 
 
 def _deck(given: Options, path: str, kind: _Kind) -> Iterator[_Condition]:

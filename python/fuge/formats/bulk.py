@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from fuge.errors import FileError, Status
-from fuge.formats.text import LARGEST_LABEL, PathLike, Place, Reason, label, quoted, read_text, refusal, value
+from fuge.formats.text import Inclusions, PathLike, Place, Reason, TextFile, label, located, quoted, value
 
 LINE_FIELDS = 8
-
-# Most files that include each other in turn, and most inclusions in all: files that include others twice double them.
-_MOST_FILES, _MOST_INCLUDED = 16, 10000
 
 _INCLUDE = re.compile(r"""\s*INCLUDE(?=[\s='"])[\s=]*(.*?)\s*""", re.IGNORECASE)
 _PATH = re.compile(r"""(['"])(?P<quoted>.+)\1|(?P<bare>[^'"].*)""")
@@ -54,7 +50,7 @@ class Card:
         """The whole number in field k, called `name` in the Reason if it is none; `default` if the field is blank."""
         if default is not None and not self.has(k):
             return default
-        return label(self.word(k), name, least, LARGEST_LABEL)
+        return label(self.word(k), name, least)
 
     def number(self, k: int, name: str, default: float | None = None) -> float:
         """The number in field k, called `name` in the Reason if it is none; `default` if the field is blank."""
@@ -74,14 +70,9 @@ def read_lines(path: PathLike, paths: list[str]) -> Iterator[tuple[Place, str]]:
     """The lines of a deck and of the files that it includes, up to ENDDATA, without comments and blank lines.
 
     Paths of included files begin at the folder of the first one; `paths` gets the path of each file once.
-
-    Raises
-    ------
-    FileError
-        A file cannot be read, or files include each other.
     """
-    folder, included = os.path.dirname(os.fspath(path)), 0
-    files = [_file_lines(path, paths)]
+    inclusions = Inclusions(path, paths)
+    files = [_file_lines(inclusions.read(path))]
     while files:
         for place, line in files[-1]:
             if _END.match(line):
@@ -90,44 +81,34 @@ def read_lines(path: PathLike, paths: list[str]) -> Iterator[tuple[Place, str]]:
             if include is None:
                 yield place, line
                 continue
-            included += 1
-            if len(files) == _MOST_FILES or included > _MOST_INCLUDED:
-                raise refusal(place, "too many files are included: does one include itself?")
-            files.append(_file_lines(os.path.join(folder, _included_path(place, include[1])), paths))
+            with located(place):
+                file = inclusions.include(_included_path(include[1]), len(files))
+            files.append(_file_lines(file))
             break
         else:
             files.pop()
 
 
-def _file_lines(path: PathLike, paths: list[str]) -> Iterator[tuple[Place, str]]:
-    file = read_text(path)
-    if file.path not in paths:
-        paths.append(file.path)
+def _file_lines(file: TextFile) -> Iterator[tuple[Place, str]]:
     for number, line in enumerate(file.lines, 1):
         text = line.partition("$")[0].rstrip()
         if text:
             yield Place(file.path, number), text
 
 
-def _included_path(place: Place, text: str) -> str:
+def _included_path(text: str) -> str:
     match = _PATH.fullmatch(text)
     if match is None:
-        raise refusal(place, "INCLUDE needs a path in quotes, which ends on its line")
+        raise Reason("INCLUDE needs a path in quotes, which ends on its line")
     return match["quoted"] or match["bare"]
 
 
 def read_cards(lines: Iterable[tuple[Place, str]]) -> Iterator[Card]:
-    """The cards of bulk data, each with the fields of the lines that continue it.
-
-    Raises
-    ------
-    FileError
-        A line has fields that would be lost, or continues none.
-    """
+    """The cards of bulk data, each with the fields of the lines that continue it."""
     card: Card | None = None
     above = ""
     for place, line in lines:
-        try:
+        with located(place):
             name, fields, marker = _split(line)
             if name is not None:
                 if card is not None:
@@ -141,8 +122,6 @@ def read_cards(lines: Iterable[tuple[Place, str]]) -> Iterator[Card]:
                     # A row of eight fields begins, whatever was before.
                     card.fields += [""] * (-len(card.fields) % LINE_FIELDS)
                 card.fields += fields
-        except Reason as reason:
-            raise refusal(place, reason) from None
         above = marker
     if card is not None:
         yield card

@@ -16,14 +16,7 @@ from fuge.formats.text import PathLike, Place, Reason, quoted, refusal
 
 
 def read_bulk_deck(path: PathLike) -> Deck:
-    """Read the one-way links and the load cases of a deck of Nastran.
-
-    Raises
-    ------
-    FileError
-        The message has the file, the line, the card and the reason; also for a card, a parameter or a command of the
-        case control that is not read and could change the answer.
-    """
+    """Read the one-way links and the load cases of a deck of Nastran; FileError as of :func:`read_deck`."""
     deck = Deck()
     subcases, bulk = split_deck(list(read_lines(path, deck.paths)))
     if not bulk:
@@ -51,8 +44,9 @@ _Readers = dict[str, Callable[[Card], None]]
 
 
 def _read(cards: Iterable[Card], readers: _Readers) -> None:
+    harmless = set(HARMLESS_CARDS)
     for card in cards:
-        if card.name in HARMLESS_CARDS:
+        if card.name in harmless:
             continue
         try:
             for k in card.filled(_LAST_FIELD.get(card.name, len(card.fields)) + 1):

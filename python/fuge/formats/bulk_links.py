@@ -13,7 +13,7 @@ from fuge.deck import DeckLink
 from fuge.formats.bulk import LINE_FIELDS, Card
 from fuge.formats.bulk_nodes import NodeCards, define
 from fuge.formats.force_table import find_one_way_law
-from fuge.formats.text import Place, Reason, located
+from fuge.formats.text import Place, Reason, located, named
 
 _Vector = NDArray[np.float64]
 # Fraction of the stiffness of a closed gap that may remain in an open one: it stands for none.
@@ -138,7 +138,7 @@ class LinkCards:
         for card, elements in self._elements.items():
             for number, element in elements.items():
                 name = f"{card} {number}"
-                with located(element.place, name):
+                with located(element.place), named(name):
                     link = self._gap(name, element) if card == "CGAP" else self._spring(name, element)
                 if link is not None:
                     yield link
@@ -163,10 +163,8 @@ class LinkCards:
         position = self._positions(element, element.system < 0)
         if not self._tables.get(table):
             raise Reason(f"the deck has no TABLED1 {table}")
-        try:
+        with named(f"TABLED1 {table}"):
             law = find_one_way_law(*np.array(self._tables[table]).T)
-        except Reason as reason:
-            raise Reason(f"TABLED1 {table}: {reason}") from None
         if element.node_b == 0 and element.system == _NO_SYSTEM:
             raise Reason("a spring to the ground needs CID, whose x axis it follows")
         direction = self._direction(element.system, position)
@@ -208,15 +206,13 @@ class LinkCards:
         if system.reference != 0:
             raise Reason(f"{where} has another reference system than 0, which is not read")
         a, b, c = np.array(system.points).reshape(3, 3)
-        try:
+        with named(where):
             z, axis = _between(a, b), _between(a, c)
-        except Reason as reason:
-            raise Reason(f"{where}: {reason}") from None
-        axis = axis - (axis @ z) * z
-        length = float(np.linalg.norm(axis))
-        if not length > _COINCIDENT:
-            raise Reason(f"{where}: its three points are on one line")
-        return axis / length
+            axis = axis - (axis @ z) * z
+            length = float(np.linalg.norm(axis))
+            if not length > _COINCIDENT:
+                raise Reason("its three points are on one line")
+            return axis / length
 
 
 def _link(

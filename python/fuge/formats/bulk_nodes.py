@@ -54,10 +54,7 @@ class NodeCards:
     def existing(self, nodes: Sequence[int], directions: tuple[int, ...]) -> Iterator[tuple[int, tuple[int, ...]]]:
         """The nodes of a list, all of which must exist, or those of a range that exist, with their directions.
 
-        Raises
-        ------
-        Reason
-            A node does not exist, or the range has too many scalar points, which have the direction 0.
+        Scalar points have the direction 0. Reason if a range has too many of them.
         """
         if directions != (0,):
             if not isinstance(nodes, range):

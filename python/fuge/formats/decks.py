@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from fuge.deck import Deck
+from fuge.formats.bulk_deck import read_bulk_deck
+from fuge.formats.keyword_deck import read_keyword_deck
 from fuge.formats.text import PathLike, read_text
 
 
@@ -18,16 +20,13 @@ def read_deck(path: PathLike) -> Deck:
         The message has the file, the line, the card and the reason; also for what is not read but could change the
         answer.
     """
-    if _has_keywords(read_text(path).lines):
-        from fuge.formats.keyword_deck import read_keyword_deck
-
+    if has_keywords(read_text(path).lines):
         return read_keyword_deck(path)
-    from fuge.formats.bulk_deck import read_bulk_deck
-
     return read_bulk_deck(path)
 
 
-def _has_keywords(lines: list[str]) -> bool:
+def has_keywords(lines: list[str]) -> bool:
+    """Whether the first line that is neither blank nor a comment begins with a keyword of Abaqus and CalculiX."""
     for line in lines:
         begin = line.strip()
         if begin and not begin.startswith(("$", "**")):

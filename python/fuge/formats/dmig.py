@@ -14,8 +14,8 @@ from functools import lru_cache
 import numpy as np
 
 from fuge.formats.matrix_rows import DIRECTIONS, Entries
-from fuge.formats.number_columns import BLANKS, Column, Table, blocks, label_column, read_words
-from fuge.formats.text import Reason, TextFile, label, quoted, refusal
+from fuge.formats.number_columns import Column, Table, blocks, label_column, read_words
+from fuge.formats.text import BLANKS, Reason, TextFile, label, quoted, refusal
 
 _SYMMETRIC, _SQUARE = 6, 1
 

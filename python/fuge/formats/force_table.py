@@ -27,13 +27,7 @@ class OneWayLaw(NamedTuple):
 
 
 def find_one_way_law(x: NDArray[np.float64], y: NDArray[np.float64]) -> OneWayLaw:
-    """The law of a table of elongations x, ascending, and tensile forces y, which go on as their last lines.
-
-    Raises
-    ------
-    Reason
-        It is no such law.
-    """
+    """The law of a table of elongations x and tensile forces y, which go on as their last lines; Reason if none."""
     if x.size < 3:
         raise Reason("three points or more are needed: two without force, and one with")
     for before, after in zip(x[:-1], x[1:]):

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import os
 import re
 from bisect import bisect_left
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
-from pathlib import PurePath
 
 from fuge.errors import FileError
 from fuge.formats.keyword_names import KEYWORDS
-from fuge.formats.text import PathLike, Place, Reason, quoted, read_text, refusal
-
-# Most files that include each other in turn, and most inclusions in all: files that include others twice double them.
-_MOST_FILES, _MOST_INCLUDED = 16, 10000
+from fuge.formats.text import BLANKS, Inclusions, PathLike, Place, Reason, TextFile, located, named, quoted, refusal
 
 # A comma in quotes is part of a name.
 _ITEM = re.compile(r'((?:"[^"]*"?|[^",])*)(,?)')
@@ -53,14 +48,12 @@ class Block:
         """The parameters by their full names; refused is one that is none of these names, and one given twice."""
         found: dict[str, str] = {}
         for text, value in self.parameters.items():
-            try:
+            with located(self.place), named(f"*{self.keyword}"):
                 name = complete(text, names)
-            except Reason as reason:
-                raise self.refuse(f"*{self.keyword}: {reason}") from None
-            if name is None:
-                raise self.refuse(f"*{self.keyword}: the parameter {quoted(text)} is not read")
-            if name in found:
-                raise self.refuse(f"*{self.keyword}: {name} is given twice")
+                if name is None:
+                    raise Reason(f"the parameter {quoted(text)} is not read")
+                if name in found:
+                    raise Reason(f"{name} is given twice")
             found[name] = value
         return found
 
@@ -72,10 +65,8 @@ def read_blocks(path: PathLike, paths: list[str] | None = None) -> Iterator[Bloc
     before the first keyword belong to a block with the keyword ''. Abbreviated keywords are written out; refused is
     what is no keyword, or abbreviates several.
     """
-    paths = [] if paths is None else paths
-    folder = os.path.dirname(os.fspath(path))
-    files = [_File(os.fspath(path), paths)]
-    included = 0
+    inclusions = Inclusions(path, [] if paths is None else paths)
+    files = [_File(inclusions.read(path))]
     block: Block | None = None
     while files:
         file = files[-1]
@@ -90,8 +81,8 @@ def read_blocks(path: PathLike, paths: list[str] | None = None) -> Iterator[Bloc
             continue
         keyword = _parsed(line, file)
         if keyword.keyword == "INCLUDE":
-            included += 1
-            files.append(_File(_included_path(keyword, folder, len(files), included), paths))
+            with located(keyword.place):
+                files.append(_File(inclusions.include(_included_path(keyword), len(files))))
             continue
         if block is not None:
             yield block
@@ -103,15 +94,13 @@ def read_blocks(path: PathLike, paths: list[str] | None = None) -> Iterator[Bloc
 class _File:
     """The lines of a file, without outer blanks."""
 
-    def __init__(self, path: str, paths: list[str]) -> None:
-        self.path = path
-        self._lines = [line.strip(" \t\r") for line in read_text(path).lines]
+    def __init__(self, file: TextFile) -> None:
+        self.path = file.path
+        self._lines = [line.strip(BLANKS) for line in file.lines]
         # Blank lines, comments and keywords stand between the data.
         self._stops = [k for k, line in enumerate(self._lines) if not line or line[0] == "*"]
         self._stops.append(len(self._lines))
         self._next = 0
-        if path not in paths:
-            paths.append(path)
 
     @property
     def place(self) -> Place:
@@ -147,12 +136,10 @@ def _parsed(line: str, file: _File) -> Block:
         more, continued = split_items(following)
         items += more
     text = squeezed(items[0])[1:]
-    try:
+    with located(place):
         keyword = complete(text, KEYWORDS)
-    except Reason as reason:
-        raise refusal(place, reason) from None
-    if keyword is None:
-        raise refusal(place, f"{quoted(f'*{text}')} is no keyword of Abaqus or CalculiX")
+        if keyword is None:
+            raise Reason(f"{quoted(f'*{text}')} is no keyword of Abaqus or CalculiX")
     block = Block(keyword, {}, place)
     for item in filter(None, items[1:]):
         name, _, value = item.partition("=")
@@ -161,26 +148,18 @@ def _parsed(line: str, file: _File) -> Block:
     return block
 
 
-def _included_path(keyword: Block, folder: str, depth: int, included: int) -> str:
+def _included_path(keyword: Block) -> str:
     path = keyword.named(["INPUT"]).get("INPUT", "")
     if not path:
-        raise keyword.refuse("*INCLUDE needs INPUT = and a path")
-    if depth == _MOST_FILES:
-        raise keyword.refuse(f"more than {_MOST_FILES} files include each other: does one include itself?")
-    if included > _MOST_INCLUDED:
-        raise keyword.refuse(f"more than {_MOST_INCLUDED} files are included: do they include others twice?")
-    return path if PurePath(path).is_absolute() else os.path.join(folder, path)
+        raise Reason("*INCLUDE needs INPUT = and a path")
+    return path
 
 
 def complete(text: str, words: Collection[str]) -> str | None:
     """The word that a text is or abbreviates, as Abaqus lets keywords, parameters and their values be; None if none.
 
-    A word with which all others begin that are meant is taken: ELEM is ELEMENT, although there is ELEMENTOUTPUT.
-
-    Raises
-    ------
-    Reason
-        The text begins several words.
+    A word with which all others begin that are meant is taken: ELEM is ELEMENT, although there is ELEMENTOUTPUT. Reason
+    if the text begins several others.
     """
     if text in words:
         return text

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 from fuge.deck import Conditions, Deck, DeckCase
 from fuge.errors import FileError, FileWarning, InputError, Status, warn
-from fuge.formats import keyword_rules as rules
+from fuge.formats import keyword_names as names, keyword_rules as rules
 from fuge.formats.keyword import Block, read_blocks, split_items, unquoted
 from fuge.formats.keyword_gaps import Gaps
 from fuge.formats.mesh_input import mesh_of
-from fuge.formats.text import PathLike, Place, Reason, label, located, quoted, value
+from fuge.formats.text import PathLike, Place, Reason, label, located, named, quoted, value
 from fuge.mesh import Mesh
 
 _DIRECTIONS = 6
@@ -32,11 +32,6 @@ def read_keyword_deck(path: PathLike) -> Deck:
     GAPUNI, GAPCYL and GAPSPHER with *GAP are links, *BOUNDARY and *CLOAD are conditions, and each static *STEP is a
     load case, called as its NAME if no other step is. What could change the answer otherwise is refused; in a step only
     if that, or a later one to which it is handed on, is a load case. A :class:`FileWarning` tells of NLGEOM.
-
-    Raises
-    ------
-    FileError
-        The message has the file, the line, the keyword and the reason.
     """
     deck = Deck()
     others: list[Block] = []
@@ -53,7 +48,7 @@ def _beside(others: list[Block], blocks: Iterable[Block]) -> Iterator[Block]:
     for block in blocks:
         if block.keyword == "ELEMENT":
             rules.check_element(block, rules.parameters_of(block))
-        elif block.keyword not in rules.MESH:
+        elif block.keyword not in names.MESH:
             others.append(block)
         yield block
 
@@ -103,7 +98,7 @@ class _Reader:
             self._begin_step()
         elif block.keyword == "ENDSTEP":
             self._end_step()
-        elif block.keyword in rules.PROCEDURES:
+        elif block.keyword in names.PROCEDURES:
             self._set_procedure(block)
         try:
             parameters = rules.parameters_of(block)
@@ -141,14 +136,14 @@ class _Reader:
         if self._step.procedure:
             raise block.refuse(f"*{block.keyword}: the step has *{self._step.procedure} already")
         self._step.procedure = block.keyword
-        self._step.perturbation |= block.keyword in rules.PERTURBATIONS
+        self._step.perturbation |= block.keyword in names.PERTURBATIONS
 
     def _end_step(self) -> None:
         """Keep a static step as a load case; what a perturbation has ends with it."""
         step, self._step = self._step, None
         if step is None:
             return
-        if step.procedure and step.procedure not in rules.STATIC:
+        if step.procedure and step.procedure not in names.STATIC:
             if step.perturbation:
                 self._held, self._forces, self._unread = step.held, step.forces, step.unread
             return
@@ -226,7 +221,7 @@ def _read_lines(block: Block, read: Callable[[list[str], Place], None]) -> None:
     """Read the columns of each data line."""
     for index, line in enumerate(block.lines):
         place = block.where(index)
-        with located(place, f"*{block.keyword}"):
+        with located(place), named(f"*{block.keyword}"):
             read(split_items(line)[0], place)
 
 

@@ -12,7 +12,7 @@ from fuge.deck import DeckLink
 from fuge.errors import InputError
 from fuge.formats.keyword import Block, split_items
 from fuge.formats.keyword_rules import GAP_TYPES
-from fuge.formats.text import PathLike, Place, Reason, located, quoted, refusal, value
+from fuge.formats.text import PathLike, Place, Reason, located, named, quoted, refusal, value
 from fuge.mesh import Mesh
 
 # Nodes whose distance is below this fraction of their largest coordinate coincide: the digits of a deck give the line
@@ -32,12 +32,7 @@ class Gaps:
         self._with_gap: set[int] = set()
 
     def read(self, block: Block, parameters: dict[str, str]) -> None:
-        """Read a *GAP: one data line for the elements of a set.
-
-        Raises
-        ------
-        FileError
-        """
+        """Read a *GAP: one data line for the elements of a set."""
         name = parameters.get("ELSET", "")
         if not name:
             raise block.refuse("*GAP needs ELSET = and a name")
@@ -48,7 +43,7 @@ class Gaps:
         if len(block.lines) != 1:
             raise block.refuse(f"*GAP needs one data line, and has {len(block.lines)}")
         place = block.where(0)
-        with located(place, "*GAP"):
+        with located(place), named("*GAP"):
             gap = read_gap(split_items(block.lines[0])[0])
             self._links += [self._link(element, gap, place) for element in elements]
 
@@ -64,20 +59,13 @@ class Gaps:
         if nodes.size != 2:
             raise Reason(f"{name} has {nodes.size} nodes: a gap has two")
         self._with_gap.add(index)
-        try:
+        with named(name):
             direction, clearance = _opening(kind, mesh.position[nodes], gap)
-        except Reason as reason:
-            raise Reason(f"{name}: {reason}") from None
         (a, b), (x, y, z) = mesh.node[nodes].tolist(), direction.tolist()
         return DeckLink(name, a, b, (x, y, z), clearance, compliance=gap.compliance, place=place)
 
     def check(self, path: PathLike) -> None:
-        """Refuse gap elements without *GAP.
-
-        Raises
-        ------
-        FileError
-        """
+        """Refuse gap elements without *GAP."""
         for index in np.flatnonzero(np.isin(self._mesh.element_types, GAP_TYPES)).tolist():
             if index not in self._with_gap:
                 name = f"{self._mesh.element_types[index]} {self._mesh.element[index]}"
@@ -101,11 +89,6 @@ def read_gap(items: list[str]) -> Gap:
 
     That force only rounds the corner of the law. The fifth column is Abaqus' area, which makes a pressure of the
     force; a number there may also be a stiffness in the wrong column.
-
-    Raises
-    ------
-    Reason
-        They are no data line of *GAP, or have a number in the fifth column.
     """
     if len(items) > _COLUMNS:
         raise Reason(f"more than {_COLUMNS} columns of *GAP")

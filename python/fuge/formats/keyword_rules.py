@@ -8,52 +8,14 @@ from __future__ import annotations
 import re
 
 from fuge.errors import FileError
+from fuge.formats import keyword_names as names
 from fuge.formats.keyword import Block, complete, split_items, squeezed
 from fuge.formats.text import quoted
 
 GAP_TYPES = ("GAPUNI", "GAPCYL", "GAPSPHER")
 
-MESH = frozenset("ELEMENT ELSET NODE NSET SURFACE".split())
-
-_READ = "BOUNDARY CLOAD ENDSTEP GAP STEP"
-
-# Linear materials, sections, constraints and springs are in the stiffness matrix; masses and dampers have no effect.
-_MODEL = """
-    AMPLITUDE BEAMGENERALSECTION BEAMSECTION CENTROID CONDUCTIVITY COUPLING DAMPING DASHPOT DENSITY DISTRIBUTING
-    DISTRIBUTINGCOUPLING DISTRIBUTION DISTRIBUTIONTABLE ELASTIC EMBEDDEDELEMENT EQUATION EXPANSION FAILSTRAIN
-    FAILSTRESS GLOBALDAMPING HEADING HOURGLASSSTIFFNESS INITIALCONDITIONS KINEMATIC KINEMATICCOUPLING MASS MATERIAL
-    MEMBRANESECTION MODALDAMPING MPC NODALTHICKNESS NONSTRUCTURALMASS NORMAL ORIENTATION PHYSICALCONSTANTS RELEASE
-    RIGIDBODY ROTARYINERTIA SECTIONCONTROLS SECTIONORIGIN SHEARCENTER SHELLGENERALSECTION SHELLSECTION
-    SHELLTOSOLIDCOUPLING SOLIDSECTION SPECIFICHEAT SPRING TIE TRANSVERSESHEAR TRANSVERSESHEARSTIFFNESS UNITSYSTEM
-"""
-
-_OUTPUT_AND_SOLVER = """
-    CONTACTFILE CONTACTOUTPUT CONTACTPRINT CONTROLS DIAGNOSTICS ELEMENTOUTPUT ELFILE ELPRINT ENERGYFILE ENERGYOUTPUT
-    ENERGYPRINT FILEFORMAT FILEOUTPUT FILTER INCREMENTATIONOUTPUT INTEGRATEDOUTPUT INTEGRATEDOUTPUTSECTION MODALFILE
-    MODALOUTPUT MODALPRINT MONITOR NODEFILE NODEOUTPUT NODEPRINT OUTPUT POSTOUTPUT PREPRINT PRINT RESTART SECTIONFILE
-    SECTIONPRINT SOLVERCONTROLS SURFACEOUTPUT TIMEPOINTS USEROUTPUTVARIABLES WAVEFRONTMINIMIZATION
-"""
-
-# Steps of these procedures are load cases.
-STATIC = frozenset(["STATIC", "VISCO"])
-
-# Linear perturbations hand nothing on to later steps.
-PERTURBATIONS = frozenset(
-    """
-    BUCKLE COMPLEXFREQUENCY FREQUENCY GREEN MATRIXGENERATE MODALDYNAMIC RANDOMRESPONSE RESPONSESPECTRUM
-    STEADYSTATEDYNAMICS SUBSTRUCTUREGENERATE
-    """.split()
-)
-
-_OTHER_PROCEDURES = """
-    ANNEAL CFD COUPLEDTHERMAL-ELECTRICAL CRACKPROPAGATION DIRECTCYCLIC DYNAMIC DYNAMICTEMPERATURE-DISPLACEMENT
-    ELECTROMAGNETIC ELECTROMAGNETICS FEASIBLEDIRECTION HEATTRANSFER MASSDIFFUSION NOANALYSIS ROBUSTDESIGN SENSITIVITY
-    STEADYSTATETRANSPORT
-"""
-
-PROCEDURES = STATIC | PERTURBATIONS | frozenset(_OTHER_PROCEDURES.split())
-
-_ALLOWED = MESH | PROCEDURES | frozenset((_READ + _MODEL + _OUTPUT_AND_SOLVER).split())
+_READ = "BOUNDARY CLOAD ENDSTEP GAP STEP".split()
+_ALLOWED = {*names.MESH, *names.PROCEDURES, *names.MODEL, *names.OUTPUT_AND_SOLVER, *_READ}
 
 _UNKNOWN = "is not read, and could change the answer: leave it out if it does not"
 _UNREAD_LOAD = "is not read: give its forces at nodes by *CLOAD"
@@ -74,7 +36,7 @@ _REASONS = {
 }
 
 # A step that is no load case does not excuse these.
-MODEL = frozenset(" ".join([_MODEL, *_REASONS.values()]).split())
+MODEL = {*names.MODEL, *" ".join(_REASONS.values()).split()}
 
 # Parameters that are read, or change nothing, of keywords whose other ones could change the answer.
 _PARAMETERS = {
@@ -126,23 +88,17 @@ _REMEDIES = {
 
 
 def parameters_of(block: Block) -> dict[str, str]:
-    """The parameters of a keyword, their names written out, and their values where only some words are allowed.
-
-    Raises
-    ------
-    FileError
-        The keyword, a parameter or a value is not known to be harmless.
-    """
+    """The parameters of a keyword, their names written out, and their values where only some words are allowed."""
     keyword = block.keyword
     if keyword not in _ALLOWED:
         unread = _UNREAD_LOAD if keyword in _UNREAD_LOADS.split() else _UNKNOWN
         reason = next((text for text, words in _REASONS.items() if keyword in words.split()), unread)
         raise block.refuse(f"*{keyword} {reason}" if keyword else "data stand before the first keyword")
-    names, remedy = _PARAMETERS.get(keyword), _REMEDIES.get(keyword, "")
-    if names is None:
+    known, remedy = _PARAMETERS.get(keyword), _REMEDIES.get(keyword, "")
+    if known is None:
         return block.parameters
     try:
-        found = block.named(names.split())
+        found = block.named(known.split())
     except FileError as refused:
         raise FileError(refused.message + remedy, refused.status) from None
     for name, value in found.items():

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fuge.formats.number_columns import Column, label_column, read_columns
-from fuge.formats.text import LARGEST_LABEL, PathLike, Reason, TextFile, quoted, read_text, refusal
+from fuge.formats.text import LARGEST_LABEL, PathLike, Reason, TextFile, quoted, read_text, refusal, split_columns
 
 Keys = NDArray[np.int64]
 """Names of rows: node * DIRECTIONS + direction."""
@@ -32,8 +32,6 @@ _KEYWORD = re.compile(
     re.IGNORECASE,
 )
 _NO_ENTRY = "{} is no entry of a matrix: give the file that *MATRIX OUTPUT writes"
-_COMMENT = re.compile(r"(?<![^ \t\r,;])[#!].*")
-_SEPARATOR = re.compile(r"[ \t\r]*[,;][ \t\r]*|[ \t\r]+")
 _DOT = re.compile(r"(?<=\d)\.(?=\d)", re.ASCII)
 
 
@@ -69,7 +67,7 @@ def read_entries(file: TextFile, rows: int) -> Entries:
     if not lines:
         raise refusal(file.path, "the file has no entry of a matrix")
     first = file.lines[lines[0] - 1]
-    count = len(split_columns(first))
+    count = len(split_columns(first)[0])
     if count not in (3, 5):
         reason = (
             f"an entry has 3 columns (row, column, value) or 5 (node, direction, node, direction, value), not {count}"
@@ -108,14 +106,8 @@ def _lines(file: TextFile) -> list[int]:
     return [number for number, line in enumerate(file.lines, 1) if not SKIPPED.match(line)]
 
 
-def split_columns(line: str) -> list[str]:
-    """The words of a line between blanks, commas or semicolons, up to a comment."""
-    words = _SEPARATOR.split(_COMMENT.sub("", line).strip(" \t\r"))
-    return words[:-1] if words[-1] == "" else words
-
-
 def _words(line: str, count: int) -> list[str]:
-    words = split_columns(line)
+    words = split_columns(line)[0]
     if line[0] == "*":
         raise Reason(_NO_ENTRY.format(quoted(line)))
     if len(words) != count:
@@ -124,7 +116,7 @@ def _words(line: str, count: int) -> list[str]:
 
 
 def _name(line: str, count: int) -> list[str]:
-    words = split_columns(line)
+    words = split_columns(line)[0]
     if len(words) != count:
         raise Reason("the node and the direction of one row are needed here, like 17.3")
     return words

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from fuge.element_faces import element_type
 from fuge.errors import FileError
 from fuge.formats.keyword import Block, complete, squeezed, unquoted
+from fuge.formats.keyword_names import MESH_MAKERS
 from fuge.formats.mesh_lines import Labels, plain_labels, read_elements, read_nodes, read_rows
-from fuge.formats.text import PathLike, Reason, label, quoted, refusal
+from fuge.formats.text import PathLike, Reason, label, located, quoted, refusal
 from fuge.mesh import Mesh
 
 _Indices = NDArray[Any]
@@ -20,12 +21,6 @@ _Parameters = dict[str, str]
 
 _NAME_LENGTH, _TYPE_LENGTH = 80, 16
 _MOST_GENERATED = 20000000
-
-# Keywords that make, move or take away nodes and elements.
-_REFUSED = """
-    ELCOPY ELGEN IMPERFECTION IMPORT INSTANCE NCOPY NFILL NGEN NMAP PART REFINEMESH SYMMETRICMODELGENERATION SYSTEM
-    USEREFINEDMESH
-""".split()
 
 # Parameters that are read, or change nothing; and what to do instead of those that are not read.
 _PARAMETERS = {
@@ -48,15 +43,9 @@ _AT_ONCE = 100000
 
 
 def mesh_of(blocks: Iterable[Block], path: PathLike, paths: Sequence[str] = ()) -> Mesh:
-    """The mesh of the blocks of a file; `paths` are those of all files that they come from.
-
-    Raises
-    ------
-    FileError
-        A line cannot be read, or a keyword makes another mesh of it.
-    """
+    """The mesh of the blocks of a file; `paths` are those of all files that they come from."""
     reader = _Reader()
-    read = [(block, _parameters(block)) for block in blocks if block.keyword in [*_PARAMETERS, *_REFUSED]]
+    read = [(block, _parameters(block)) for block in blocks if block.keyword in {*_PARAMETERS, *MESH_MAKERS}]
     _take(read, reader.take_items)
     if not reader.positions:
         raise refusal(path, "there is no *NODE: is it an input file of Abaqus or CalculiX?")
@@ -67,7 +56,7 @@ def mesh_of(blocks: Iterable[Block], path: PathLike, paths: Sequence[str] = ()) 
 
 
 def _parameters(block: Block) -> _Parameters:
-    if block.keyword in _REFUSED:
+    if block.keyword in MESH_MAKERS:
         reason = "is not read, and without it the mesh would be another one: write a file that lists all nodes and"
         raise block.refuse(f"*{block.keyword} {reason} elements")
     parameters = block.named([*_PARAMETERS[block.keyword].split(), *_REMEDIES])
@@ -79,10 +68,8 @@ def _parameters(block: Block) -> _Parameters:
 
 def _take(read: list[tuple[Block, _Parameters]], take: Callable[[Block, _Parameters], None]) -> None:
     for block, parameters in read:
-        try:
+        with located(block.place):
             take(block, parameters)
-        except Reason as reason:
-            raise block.refuse(reason) from None
 
 
 class _Set:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from fuge.element_faces import element_type
 from fuge.formats.keyword import Block, split_items
-from fuge.formats.text import LARGEST_LABEL, Reason, label, value
+from fuge.formats.text import LARGEST_LABEL, Reason, label, located, value
 
 _BLANK = re.compile(r",\s+,")
 
@@ -32,10 +32,8 @@ def read_rows(block: Block, read: Callable[[list[str]], _Row]) -> list[_Row]:
     """What `read` makes of the items of each data line; its Reason becomes an error with the place of the line."""
     rows = []
     for k, line in enumerate(block.lines):
-        try:
+        with located(block.where(k)):
             rows.append(read(split_items(line)[0]))
-        except Reason as reason:
-            raise block.refuse(reason, k) from None
     return rows
 
 

@@ -9,7 +9,7 @@ from typing import Any, Callable, NamedTuple, Union
 import numpy as np
 from numpy.typing import NDArray
 
-from fuge.formats.text import LARGEST_LABEL, Reason, TextFile, label, value
+from fuge.formats.text import BLANKS, LARGEST_LABEL, TextFile, label, located, value
 
 Table = NDArray[np.float64]
 """A row for each column of the text; labels are exact."""
@@ -17,7 +17,6 @@ Table = NDArray[np.float64]
 Numbers = Union[Sequence[int], NDArray[np.int64]]
 """Numbers of lines, from 1."""
 
-BLANKS = " \t\r"
 _LARGEST = float(np.finfo(float).max)
 # Where the letter of an exponent is missing, as in 3.+5.
 _NO_LETTER = re.compile(r"(?<=[\d.])(?=[+-])", re.ASCII)
@@ -126,9 +125,7 @@ def _one_by_one(
     """The numbers in any spelling; refuses the first line that cannot be read."""
     table = np.empty((len(columns), len(items)))
     for k, item in enumerate(items):
-        try:
+        with located(file.place(int(numbers[k]))):
             words = split(item, len(columns))
             table[:, k] = [column.read(word) for column, word in zip(columns, [*words, *[""] * len(columns)])]
-        except Reason as reason:
-            raise file.refuse(int(numbers[k]), reason) from None
     return table

@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from fuge.formats.matrix_rows import Entries
-from fuge.formats.number_columns import BLANKS, Column, blocks, read_words
-from fuge.formats.text import Reason, TextFile, quoted, refusal, whole
+from fuge.formats.number_columns import Column, blocks, read_words
+from fuge.formats.text import BLANKS, Reason, TextFile, located, quoted, refusal, whole
 
 
 class Op4Header(NamedTuple):
@@ -97,24 +97,22 @@ def _value_lines(file: TextFile, begin: int, header: Op4Header) -> tuple[_ValueL
     column, row, announced, found = 0, 0, 0, 0
     for k in range(begin, len(file.lines)):
         line = file.lines[k].rstrip(" \r")
-        try:
-            if "." in line:
-                if column > header.columns:
-                    return lines, k + 1
-                if row == 0:
-                    raise Reason("values before the header of their column or string")
-                count = -(-len(line) // header.width)
-                lines += (k + 1, column, row + found, count)
-                found += count
-                if row + found > header.rows + 1:
-                    raise Reason(f"row {header.rows + 1} is outside 1 .. {header.rows}")
-            elif line.strip(BLANKS):
+        if "." in line:
+            if column > header.columns:
+                return lines, k + 1
+            if row == 0:
+                raise file.refuse(k + 1, "values before the header of their column or string")
+            count = -(-len(line) // header.width)
+            lines += (k + 1, column, row + found, count)
+            found += count
+            if row + found > header.rows + 1:
+                raise file.refuse(k + 1, f"row {header.rows + 1} is outside 1 .. {header.rows}")
+        elif line.strip(BLANKS):
+            with located(file.place(k + 1)):
                 if announced not in (found, found * header.words):
                     words = f"{announced} words of {header.words} for each value are announced"
                     raise Reason(f"column {column} has {found} values above this line, but {words}")
                 (column, row, announced), found = _next_run(line, column, header), 0
-        except Reason as reason:
-            raise file.refuse(k + 1, reason) from None
     if column > header.columns:
         return lines, len(file.lines)
     where = f"in or before column {min(column + 1, header.columns)} of {header.columns}"

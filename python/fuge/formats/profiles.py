@@ -8,8 +8,8 @@ import os
 import numpy as np
 from numpy.typing import NDArray
 
-from fuge.formats.rows import columns, is_word, lines, number, plain_heights
-from fuge.formats.text import PathLike, Place, Reason, read_bytes, refusal
+from fuge.formats.rows import is_word, lines, number, plain_heights, text
+from fuge.formats.text import PathLike, Place, Reason, read_bytes, refusal, split_columns
 
 
 def read_profile(path: PathLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -30,7 +30,7 @@ def read_profile(path: PathLike) -> tuple[NDArray[np.float64], NDArray[np.float6
             place = Place(os.fspath(path), count)
             point = plain_heights(line, next((mark for mark in (b",", b";") if mark in line), None))
             if point is None or len(point) != 2 or not all(map(math.isfinite, point)):
-                words = columns(line)[0]
+                words = split_columns(text(line))[0]
                 if words and not (points or headed) and all(map(is_word, words[:2])):
                     headed, words = True, []
                 if not words:

@@ -14,11 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fuge.errors import FileError
-from fuge.formats.text import Place, Reason, quoted, refusal, value
+from fuge.formats.text import Place, Reason, located, quoted, refusal, split_columns, value
 from fuge.heights import LARGEST, first_place
 
-_COMMENT = re.compile(r"(?:^|(?<=[ \t\r,;]))[#!].*", re.DOTALL)
-_SEPARATOR = re.compile(r"[ \t\r]*([,;])[ \t\r]*|[ \t\r]+")
 _NAMES = {" ": "blanks", ",": "commas", ";": "semicolons"}
 
 _UNMEASURED = re.compile(r"(?:[+-]?nan(?:\(.*)?|bad)?", re.IGNORECASE)
@@ -63,15 +61,6 @@ def text(line: bytes) -> str:
     return line.decode("utf-8", errors="surrogateescape").rstrip("\n")
 
 
-def columns(line: bytes) -> tuple[list[str], list[str]]:
-    """The columns of a line, and the separators after them; the last column may have one."""
-    content = _COMMENT.sub("", text(line)).strip(" \t\r")
-    if not content:
-        return [], []
-    parts = _SEPARATOR.split(content)
-    return parts[::2] if parts[-1] else parts[:-1:2], [separator or " " for separator in parts[1::2]]
-
-
 def number(word: str) -> float:
     """A finite number, with a decimal point and an exponent after e or d."""
     if _BARE_EXPONENT.search(word):
@@ -110,7 +99,7 @@ def _first_row(path: str, content: bytes) -> _Form:
     """
     count, doubtful = 0, _Form(0, 0, "")
     for count, line in lines(content):
-        words, separators = columns(line)
+        words, separators = split_columns(text(line))
         if all(map(is_word, words)):
             continue
         form = _Form(count, len(words), separators[0] if separators else "")
@@ -126,7 +115,7 @@ def _first_row(path: str, content: bytes) -> _Form:
 
 def _row(line: bytes, form: _Form) -> list[float]:
     """The heights of any line; none if it is blank or a comment."""
-    words, separators = columns(line)
+    words, separators = split_columns(text(line))
     for separator in separators[: form.columns] if form.columns > 1 else ():
         if separator != form.separator:
             kinds = f"{_NAMES[form.separator]} and by {_NAMES[separator]}"
@@ -147,10 +136,8 @@ def read_rows(path: str, content: bytes) -> Rows:
     for count, line in islice(lines(content), form.line - 1, None):
         row = plain_heights(line, separator)
         if row is None or len(row) != form.columns:
-            try:
+            with located(Place(path, count)):
                 row = _row(line, form)
-            except Reason as reason:
-                raise refusal(Place(path, count), reason) from None
         if row:
             values.fromlist(row)
             numbers.append(count)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from fuge.formats.rows import height, lines, number, plain_heights, text
 from fuge.formats.surface_text import Heights
-from fuge.formats.text import Place, Reason, quoted, refusal, whole
+from fuge.formats.text import Place, Reason, located, quoted, refusal, whole
 from fuge.heights import LARGEST
 
 # Those of the standard, and what came before it.
@@ -68,10 +68,8 @@ def read_sdf(path: str, content: bytes) -> Heights:
     if version in _TEXT_VERSIONS:
         header, heights = _read_text(path, content)
     elif version in _BINARY_VERSIONS:
-        try:
+        with located(path):
             header, heights = _read_binary(content)
-        except Reason as reason:
-            raise refusal(path, reason) from None
     else:
         shown = quoted(version.decode("latin-1"))
         raise refusal(path, f"the version {shown} is not read: save the surface as aISO-1.0 or bISO-1.0")

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fuge.errors import FileError
 from fuge.formats.rows import Rows, number
-from fuge.formats.text import Reason, quoted, refusal
+from fuge.formats.text import Reason, located, quoted, refusal
 from fuge.heights import first_place
 
 _MICROMETRES = {"um", "\N{MICRO SIGN}m", "\N{GREEK SMALL LETTER MU}m"}
@@ -138,11 +138,9 @@ def read_points(rows: Rows, fill: bool) -> Heights:
         raise rows.refuse(row, "a position is missing: x, y and the height are needed")
     for row, _ in () if fill else first_place(np.isnan(points)):
         raise _unmeasured(rows, row, 2)
-    try:
+    with located(rows.path):
         x, dx, nx, i = _fitted_axis(points[:, 0], "x")
         y, dy, ny, j = _fitted_axis(points[:, 1], "y")
-    except Reason as reason:
-        raise refusal(rows.path, reason) from None
     if nx * ny // 2 > len(points):
         raise refusal(rows.path, f"{len(points)} points are no full grid of {nx} positions x and {ny} positions y")
     place = nx * j + i

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from itertools import chain
 from typing import Literal
 
 import numpy as np
@@ -15,7 +16,7 @@ from fuge.formats.instruments import failure, instrument_format, read_instrument
 from fuge.formats.rows import read_rows
 from fuge.formats.sdf import is_sdf, read_sdf
 from fuge.formats.surface_text import Heights, comment_spacings, read_grid, read_points
-from fuge.formats.text import PathLike, read_bytes, refusal
+from fuge.formats.text import PathLike, read_bytes, refusal, write_text
 from fuge.heights import LARGEST, check_numbers, checked_heights, fill_surface, first_place, refuse_numbers, rms_slope
 
 SurfaceFormat = Literal["any", "grid", "points", "sdf"]
@@ -144,15 +145,5 @@ def write_surface(path: PathLike, height: ArrayLike, spacing: tuple[float, float
     check_numbers("spacing", steps)
     refuse_numbers(Status.ERR_WIDTH, "spacing", steps, steps < 0.0, "is negative: pass 0 if it is unknown")
     row = " ".join(["%.16e"] * heights.shape[1]) + "\n"
-    try:
-        with open(path, "w", encoding="ascii") as file:
-            try:
-                file.writelines(f"# spacing_{axis} = {step:.16e}\n" for axis, step in zip("xy", steps) if step > 0.0)
-                file.writelines(row % tuple(line.tolist()) for line in heights)
-                file.flush()
-            except OSError:
-                # Half of a surface would be read as a smaller one.
-                os.truncate(path, 0)
-                raise
-    except (OSError, ValueError) as reason:
-        raise failure(path, f"cannot be written: {getattr(reason, 'strerror', None) or reason}") from None
+    comments = (f"# spacing_{axis} = {step:.16e}\n" for axis, step in zip("xy", steps) if step > 0.0)
+    write_text(path, chain(comments, (row % tuple(line.tolist()) for line in heights)))

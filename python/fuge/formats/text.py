@@ -20,10 +20,18 @@ LARGEST_LABEL = 2**31 - 1
 # Ends of long paths and beginnings of long words in messages.
 _PATH_LENGTH, _QUOTE_LENGTH = 100, 24
 
+# Most files that include each other in turn, and most inclusions in all: files that include others twice double them.
+_MOST_FILES, _MOST_INCLUDED = 16, 10000
+
 # 1.5, .5e3, 1d-4 and, as Nastran has it, 3.+5.
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[eEdD]([+-]?\d+)|([+-]\d+))?", re.ASCII)
 _NOT_FINITE = re.compile(r"[+-]?(?:nan|inf(?:inity)?)", re.IGNORECASE)
 _WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
+
+BLANKS = " \t\r"
+# Columns stand between commas or semicolons, else between blanks.
+_SEPARATOR = re.compile(r"[ \t\r]*([,;])[ \t\r]*|[ \t\r]+")
+_COMMENT = re.compile(r"(?<![^ \t\r,;])[#!].*", re.DOTALL)
 
 
 class Reason(Exception):
@@ -46,13 +54,27 @@ def refusal(place: Place | PathLike, reason: object) -> FileError:
     return FileError(f"{where}: {reason}", Status.ERR_FILE)
 
 
+class located:
+    """A context that makes a FileError with this place of a Reason."""
+
+    def __init__(self, place: Place | PathLike) -> None:
+        self._place = place
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, reason: object, trace: object) -> None:
+        if isinstance(reason, Reason):
+            raise refusal(self._place, reason) from None
+
+
 @contextmanager
-def located(place: Place | PathLike, name: str = "") -> Iterator[None]:
-    """Make a FileError of a Reason: it has this place, and begins with a name."""
+def named(name: str) -> Iterator[None]:
+    """Put a name before a Reason."""
     try:
         yield
     except Reason as reason:
-        raise refusal(place, f"{name}: {reason}" if name else reason) from None
+        raise Reason(f"{name}: {reason}") from None
 
 
 def quoted_path(path: PathLike) -> str:
@@ -70,13 +92,7 @@ def quoted(text: str) -> str:
 
 
 def read_bytes(path: PathLike) -> bytes:
-    """All of a regular file.
-
-    Raises
-    ------
-    FileError
-        It cannot be opened or read, or it is a device, a pipe or a folder.
-    """
+    """All of a regular file; FileError if it is a device, a pipe or a folder, or cannot be read."""
     if not os.fspath(path).strip():
         raise FileError("the path is blank: pass the path of a file", Status.ERR_FILE)
     try:
@@ -100,9 +116,13 @@ class TextFile:
     path: str
     lines: list[str]
 
+    def place(self, number: int) -> Place | PathLike:
+        """The place of line `number`, from 1; an empty file has no line."""
+        return Place(self.path, number) if self.lines else self.path
+
     def refuse(self, number: int, reason: object) -> FileError:
-        """The error that line `number`, from 1, cannot be read; an empty file has no line."""
-        return refusal(Place(self.path, number) if self.lines else self.path, reason)
+        """The error that line `number` cannot be read."""
+        return refusal(self.place(number), reason)
 
 
 def read_text(path: PathLike) -> TextFile:
@@ -114,6 +134,36 @@ def read_text(path: PathLike) -> TextFile:
     if lines[-1] == "":
         lines.pop()
     return TextFile(os.fspath(path), [line.removesuffix("\r") for line in lines])
+
+
+class Inclusions:
+    """Reads a file and those that it includes, whose paths begin at its folder; `paths` gets the path of each once."""
+
+    def __init__(self, path: PathLike, paths: list[str]) -> None:
+        self._folder, self._paths, self._count = os.path.dirname(os.fspath(path)), paths, 0
+
+    def read(self, path: PathLike) -> TextFile:
+        """The file itself."""
+        file = read_text(path)
+        if file.path not in self._paths:
+            self._paths.append(file.path)
+        return file
+
+    def include(self, path: str, depth: int) -> TextFile:
+        """A file that is included while `depth` files are open; Reason if there are too many, or too many in all."""
+        self._count += 1
+        if depth == _MOST_FILES:
+            raise Reason(f"more than {_MOST_FILES} files include each other: does one include itself?")
+        if self._count > _MOST_INCLUDED:
+            raise Reason(f"more than {_MOST_INCLUDED} files are included: do they include others twice?")
+        return self.read(os.path.join(self._folder, path))
+
+
+def split_columns(line: str) -> tuple[list[str], list[str]]:
+    """The columns of a line up to a comment, and the separators after them; the last column may have one."""
+    content = _COMMENT.sub("", line).strip(BLANKS)
+    parts = _SEPARATOR.split(content) if content else []
+    return parts[::2] if content and parts[-1] else parts[:-1:2], [separator or " " for separator in parts[1::2]]
 
 
 def value(text: str) -> float:
@@ -148,16 +198,11 @@ def label(text: str, name: str, least: int = 1, most: int = LARGEST_LABEL) -> in
 
 
 def write_text(path: PathLike, parts: Iterable[str]) -> None:
-    """Create a file, or replace it.
-
-    Raises
-    ------
-    FileError
-        It cannot be opened, or not be written to its end; it is then empty.
-    """
+    """Create a file, or replace it; FileError if it cannot be opened, or not be written: it is then empty."""
     if not os.fspath(path).strip():
         raise FileError("the path is blank: pass the path of a file", Status.ERR_FILE)
     opened = False
+    # Half of a matrix or a surface could be read as a smaller one.
     try:
         with open(path, "w", encoding="utf-8", newline="") as file:
             opened = True
