@@ -1,6 +1,6 @@
 !> The field in a half-plane under cells of pressure.
 module fuge_field_of_halfplane
-  use fuge_field_type, only: fuge_field
+  use fuge_field_type, only: fuge_field, require_places
   use fuge_halfplane_loads, only: halfplane_loads
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, require_memory
@@ -174,6 +174,8 @@ contains
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
 
+    call require_places(self, info)
+    if (info%failed()) return
     call fuge_halfplane_peak(self%loads%x, self%loads%width, self%loads%force, self%loads%element, self%plane_state, &
                              self%poisson, measure, peak, info, self%loads%symmetric)
   end subroutine find_largest
