@@ -169,10 +169,10 @@ contains
     allocate (work%plain(components, n, size(work%in_top)), &
               work%factor(0:merge(n/2, n - 1, work%periodic), 0:0), stat=stat)
     call require_memory(stat, 'results at', n, 'cells', info)
+    if (work%periodic) call find_uniform(body, depth, work%layer, .true., work%uniform, info)
     if (size(depth) < 1) return
     call work%panels%fit(body, work%layer, depth, info)
     call work%panels%make_room(work%mixture, info)
-    if (work%periodic) call find_uniform(body, depth, work%layer, .true., work%uniform, info)
     if (info%failed()) return
     kind = [merge(WAVES_OF, PLACES_OF, work%periodic), WAVES_OF]
     first = work%panels%first_length()

@@ -187,10 +187,10 @@ contains
     if (info%failed()) return
     allocate (work%plain(components, size(force), size(work%in_top)), stat=stat)
     call require_memory(stat, 'results at', size(force), 'cells', info)
+    if (work%grid%boundary == FUGE_PERIODIC) call find_uniform(body, depth, work%layer, .false., work%uniform, info)
     if (size(depth) < 1) return
     call work%panels%fit(body, work%layer, depth, info)
     call work%panels%make_room(work%mixture, info)
-    if (work%grid%boundary == FUGE_PERIODIC) call find_uniform(body, depth, work%layer, .false., work%uniform, info)
     if (info%failed()) return
     kind = PLACES_OF
     where (periodic(work%grid)) kind = merge(WAVES_OF, CIRCLE_OF, work%grid%boundary == FUGE_PERIODIC)
