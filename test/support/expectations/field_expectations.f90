@@ -8,7 +8,7 @@ module field_expectations
   implicit none
   private
 
-  public :: below_cells, peak_of, unexpected_peak, values_at
+  public :: below_cells, of_axis, of_plane, unexpected_peak, values_at
 
   !> In the place of values that were refused.
   real(dp), parameter :: NONE = huge(1.0_dp)
@@ -23,55 +23,60 @@ contains
     real(dp) :: values(9, size(place, 2))
     type(fuge_info) :: info
 
-    values = NONE
     call field%stress(place, values(:6, :), info, below)
     if (.not. info%failed()) call field%displacement(place, values(7:, :), info, below)
     if (info%failed()) values = NONE
   end function values_at
 
-  !> (9, cells) at one depth below the cells of a grid.
-  function below_cells(field, depth, below) result(values)
+  !> (9, cells) at one depth below the cells of a grid, in layers below an interface.
+  function below_cells(field, depth) result(values)
     class(fuge_field), intent(in) :: field
     real(dp), intent(in) :: depth
-    logical, intent(in), optional :: below
     real(dp) :: values(9, field%cells)
-    real(dp) :: tensor(6, field%cells, 1), u(3, field%cells, 1)
-    logical :: lower(1)
+    real(dp) :: both(9, field%cells, 1)
     type(fuge_info) :: info
 
-    lower = .false.
-    if (present(below)) lower = below
-    call field%grid_stress([depth], tensor, info, lower)
-    if (.not. info%failed()) call field%grid_displacement([depth], u, info, lower)
-    values = NONE
-    if (info%failed()) return
-    values(:6, :) = tensor(:, :, 1)
-    values(7:, :) = u(:, :, 1)
+    call field%grid_stress([depth], both(:6, :, :), info, [.true.])
+    if (.not. info%failed()) call field%grid_displacement([depth], both(7:, :, :), info, [.true.])
+    values = merge(NONE, both(:, :, 1), info%failed())
   end function below_cells
 
-  !> The largest stress; a huge one if it was refused.
-  function peak_of(field, measure) result(peak)
+  !> Stresses xx, zz, xz and displacements along x and z as a field has them; yy is `nu` times the sum of the others.
+  pure function of_plane(stress, u, nu) result(values)
+    real(dp), intent(in) :: stress(:, :), u(:, :), nu(:)
+    real(dp) :: values(9, size(nu))
+
+    values = 0.0_dp
+    values([1, 3, 5], :) = stress
+    values(2, :) = nu*(stress(1, :) + stress(2, :))
+    values([7, 9], :) = u
+  end function of_plane
+
+  !> Stresses rr, tt, zz, rz and displacements along r and z as a field has them.
+  pure function of_axis(stress, u) result(values)
+    real(dp), intent(in) :: stress(:, :), u(:, :)
+    real(dp) :: values(9, size(u, 2))
+
+    values = 0.0_dp
+    values([1, 2, 3, 5], :) = stress
+    values([7, 9], :) = u
+  end function of_axis
+
+  !> '' for a field with this largest stress.
+  function unexpected_peak(field, measure, expected) result(report)
     class(fuge_field), intent(in) :: field
     integer, intent(in) :: measure
-    type(fuge_stress_peak) :: peak
+    type(fuge_stress_peak), intent(in) :: expected
+    character(len=REPORT_LENGTH) :: report
+    type(fuge_stress_peak) :: found
     type(fuge_info) :: info
 
-    peak%value = NONE
-    call field%largest(measure, peak, info)
-  end function peak_of
-
-  !> '' for the same largest stress.
-  pure function unexpected_peak(found, expected) result(report)
-    type(fuge_stress_peak), intent(in) :: found, expected
-    character(len=REPORT_LENGTH) :: report
-
-    report = ''
-    call add_difference('value', [found%value], [expected%value], 0.0_dp, report)
-    call add_difference('place', found%place, expected%place, 0.0_dp, report)
+    call field%largest(measure, found, info)
+    report = info%message
+    call add_difference('value and place', [found%value, found%place], [expected%value, expected%place], 0.0_dp, report)
     call add_difference('tensor', found%tensor, expected%tensor, 0.0_dp, report)
-    if (found%location /= expected%location) call add_words('another location', report)
-    if (found%layer /= expected%layer) call add_words('another layer', report)
-    if (found%cell /= expected%cell) call add_words('another cell', report)
+    if (any([found%location, found%layer, found%cell] /= [expected%location, expected%layer, expected%cell])) &
+      call add_words('another location, layer or cell', report)
   end function unexpected_peak
 
 end module field_expectations
