@@ -8,11 +8,17 @@ enum { SIDE = 12, N = SIDE * SIDE, POINTS = 40, RINGS = 6, LARGE = 4 << 20, SMAL
 
 typedef struct {
   int failures;
-  double force[3][N], stress[2][6 * POINTS], field[4 * RINGS];
+  double force[3][N], stress[3][6 * POINTS];
 } record;
 
 static void expect(record *r, int status) {
   if (status != FUGE_DONE) r->failures++;
+}
+
+/* The stresses at all points; the field is freed. */
+static void ask(record *r, fuge_field *field, const double *place, double *stress) {
+  expect(r, fuge_field_stress(field, POINTS, place, NULL, stress, NULL, 0));
+  fuge_field_free(&field);
 }
 
 static void solve(record *r, const fuge_operator *op, int method, double *force) {
@@ -35,8 +41,9 @@ static void solve(record *r, const fuge_operator *op, int method, double *force)
 static void *work(void *result) {
   record *r = result;
   double *alpha = malloc(sizeof(double) * N * N), x[N], y[N], width[N], force[N];
-  double px[POINTS], py[POINTS], pz[POINTS], radius[RINGS + 1], pressure[RINGS];
+  double place[3 * POINTS], radius[RINGS + 1], pressure[RINGS];
   fuge_operator *op = NULL;
+  fuge_field *field = NULL;
   for (int k = 0; k < N; k++) {
     x[k] = k % SIDE;
     y[k] = k / SIDE;
@@ -44,9 +51,9 @@ static void *work(void *result) {
     force[k] = 1.0 + 0.1 * (k % 7);
   }
   for (int k = 0; k < POINTS; k++) {
-    px[k] = 0.3 * k;
-    py[k] = 5.0;
-    pz[k] = 0.1 + 0.05 * k;
+    place[3 * k] = 0.3 * k;
+    place[3 * k + 1] = 5.0;
+    place[3 * k + 2] = 0.1 + 0.05 * k;
   }
   for (int k = 0; k <= RINGS; k++) radius[k] = 0.5 * k;
   for (int k = 0; k < RINGS; k++) pressure[k] = 1.0 + k;
@@ -62,9 +69,12 @@ static void *work(void *result) {
   expect(r, fuge_operator_dense(N, alpha, N, &op, NULL, 0));
   solve(r, op, FUGE_TABLEAU, r->force[2]);
   fuge_operator_free(&op);
-  expect(r, fuge_halfspace_stress(N, x, y, width, width, force, 0.3, 0, 0, POINTS, px, py, pz, r->stress[0], NULL, 0));
-  expect(r, fuge_halfplane_stress(SIDE, x, width, force, FUGE_MEAN, 0, POINTS, px, pz, r->stress[1], NULL, 0));
-  expect(r, fuge_ring_stress(RINGS, radius, pressure, 0.3, RINGS, radius, pz, r->field, NULL, 0));
+  expect(r, fuge_field_halfspace(N, x, y, width, width, force, 0, 0, 1.0, 0.3, &field, NULL, 0));
+  ask(r, field, place, r->stress[0]);
+  expect(r, fuge_field_halfplane(SIDE, x, width, force, FUGE_MEAN, 0, 1.0, 0.3, FUGE_PLANE_STRAIN, &field, NULL, 0));
+  ask(r, field, place, r->stress[1]);
+  expect(r, fuge_field_rings(RINGS, radius, pressure, 1.0, 0.3, &field, NULL, 0));
+  ask(r, field, place, r->stress[2]);
   free(alpha);
   return NULL;
 }
@@ -86,7 +96,7 @@ int main(void) {
   if (large && small) {
     run(small, SMALL);
     run(large, LARGE);
-    CHECK(large->force[0][N / 2 + SIDE / 2] > 0.0 && large->stress[0][0] < 0.0 && large->field[0] < 0.0);
+    CHECK(large->force[0][N / 2 + SIDE / 2] > 0.0 && large->stress[0][0] < 0.0 && large->stress[2][0] < 0.0);
     CHECK(memcmp(small, large, sizeof *small) == 0);
   }
   free(large);

@@ -1,9 +1,9 @@
 !> The field in a half-plane under cells of pressure.
 module fuge_field_of_halfplane
-  use fuge_field_type, only: fuge_field
+  use fuge_field_type, only: fuge_field, require_places
   use fuge_halfplane_loads, only: halfplane_loads
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info, require_memory
   use fuge_stress_peak_type, only: fuge_stress_peak
   implicit none
   private
@@ -174,11 +174,8 @@ contains
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
 
-    if (.not. self%has_places) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the largest stress under a periodic grid is not searched for: find ' &
-                  //'that of grid_stress at the depths of interest')
-      return
-    end if
+    call require_places(self, info)
+    if (info%failed()) return
     call fuge_halfplane_peak(self%loads%x, self%loads%width, self%loads%force, self%loads%element, self%plane_state, &
                              self%poisson, measure, peak, info, self%loads%symmetric)
   end subroutine find_largest

@@ -1,9 +1,9 @@
 !> The field in a half-space under rectangles of pressure.
 module fuge_field_of_halfspace
-  use fuge_field_type, only: fuge_field
+  use fuge_field_type, only: fuge_field, require_places
   use fuge_halfspace_loads, only: halfspace_loads
   use fuge_kinds, only: dp
-  use fuge_status, only: fuge_info, report, FUGE_ERR_UNSUPPORTED
+  use fuge_status, only: fuge_info
   use fuge_stress_peak_type, only: fuge_stress_peak
   implicit none
   private
@@ -146,11 +146,8 @@ contains
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
 
-    if (.not. self%has_places) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the largest stress under a periodic grid is not searched for: find ' &
-                  //'that of grid_stress at the depths of interest')
-      return
-    end if
+    call require_places(self, info)
+    if (info%failed()) return
     call fuge_halfspace_peak(self%loads%x, self%loads%y, self%loads%width_x, self%loads%width_y, self%loads%force, &
                              self%poisson, measure, peak, info, self%loads%symmetric(1), self%loads%symmetric(2))
   end subroutine find_largest

@@ -7,6 +7,8 @@ module fuge_field_type
   implicit none
   private
 
+  public :: require_places
+
   !> What is known in a body under the forces of a contact: a child for each kind of body, made by its `set` procedures.
   !>
   !> Places are x, y, z, length, z >= 0 into the body. In a plane y does not count, and displacements along it are 0;
@@ -159,6 +161,15 @@ contains
     if (.not. field%is_set) call report(info, FUGE_ERR_CALL_ORDER, 'the field is empty: set it first')
   end subroutine check_set
 
+  !> For children: refuse the field of a periodic grid.
+  pure subroutine require_places(field, info)
+    class(fuge_field), intent(in) :: field
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. field%has_places) call report(info, FUGE_ERR_UNSUPPORTED, 'the field of a periodic grid is known below ' &
+                                            //'the centres of its cells only: take grid_stress and grid_displacement')
+  end subroutine require_places
+
   !> Refuse a field that does not know any place, and arrays that do not fit each other.
   pure subroutine check_places(field, place, sizes, components, name, info)
     class(fuge_field), intent(in) :: field
@@ -169,10 +180,9 @@ contains
 
     call check_set(field, info)
     if (info%failed()) return
-    if (.not. field%has_places) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'the field of a periodic grid is known below the centres of its cells ' &
-                  //'only: take grid_stress and grid_displacement')
-    else if (size(place, 1) /= 3) then
+    call require_places(field, info)
+    if (info%failed()) return
+    if (size(place, 1) /= 3) then
       call report(info, FUGE_ERR_SIZE, 'place has '//text(size(place, 1))//' rows: each point has x, y, z')
     else if (any(sizes /= [components, size(place, 2)])) then
       call report(info, FUGE_ERR_SIZE, name//' is '//text(sizes(1))//' by '//text(sizes(2))//': it needs ' &

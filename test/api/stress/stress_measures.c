@@ -31,28 +31,7 @@ static void test_principal_stresses(void) {
   CHECK_UNTOUCHED(principal + 3 * POINTS, 1);
 }
 
-static void test_tensors(void) {
-  static const double plane[3] = {1, -3, 5}, round[4] = {1, 2, 3, 4};
-  double tensor[7];
-  fill(tensor, 7);
-  CHECK_DONE(fuge_halfplane_tensor(1, plane, FUGE_PLANE_STRAIN, 0.25, tensor, NULL, 0));
-  CHECK_NEAR(tensor[0], 1.0, 0.0);
-  CHECK_NEAR(tensor[1], -0.5, 1e-16);
-  CHECK_NEAR(tensor[2], -3.0, 0.0);
-  CHECK_NEAR(tensor[3], 0.0, 0.0);
-  CHECK_NEAR(tensor[4], 5.0, 0.0);
-  CHECK_NEAR(tensor[5], 0.0, 0.0);
-  CHECK_UNTOUCHED(tensor + 6, 1);
-  CHECK_DONE(fuge_halfplane_tensor(1, plane, FUGE_PLANE_STRESS, 0.25, tensor, NULL, 0));
-  CHECK_NEAR(tensor[1], 0.0, 0.0);
-  CHECK_DONE(fuge_round_tensor(1, round, tensor, NULL, 0));
-  CHECK_NEAR(tensor[1], 2.0, 0.0);
-  CHECK_NEAR(tensor[2], 3.0, 0.0);
-  CHECK_NEAR(tensor[4], 4.0, 0.0);
-}
-
 static void test_refusals(void) {
-  static const double plane[3] = {1, -3, 5};
   double value[6];
   char message[256] = "";
   fill(value, 6);
@@ -60,10 +39,6 @@ static void test_refusals(void) {
   CHECK_SAYS(fuge_tresca(1, NULL, value, message, sizeof message), FUGE_ERR_POINTER, message, "tensor is NULL");
   CHECK_STATUS(fuge_mean_stress(1, TENSOR, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_principal_stresses(1, TENSOR, NULL, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_round_tensor(1, NULL, value, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_halfplane_tensor(1, plane, 7, 0.3, value, NULL, 0), FUGE_ERR_OPTION);
-  CHECK_STATUS(fuge_halfplane_tensor(1, plane, FUGE_PLANE_STRAIN, -1.0, value, NULL, 0), FUGE_ERR_MODULUS);
-  CHECK_STATUS(fuge_halfplane_tensor(1, plane, FUGE_PLANE_STRAIN, NAN, value, NULL, 0), FUGE_ERR_NOT_FINITE);
   CHECK_UNTOUCHED(value, 6);
   CHECK_DONE(fuge_von_mises(0, TENSOR, value, NULL, 0));
   CHECK_UNTOUCHED(value, 6);
@@ -72,7 +47,6 @@ static void test_refusals(void) {
 int main(void) {
   test_scalars();
   test_principal_stresses();
-  test_tensors();
   test_refusals();
   return check_summary();
 }
