@@ -37,16 +37,19 @@ class _Kind(NamedTuple):
     example: str
     line: str
     needed: str
+    # Keywords of input files that other options stand for.
+    skipped: str
 
 
-_SUPPORT = _Kind("BOUNDARY", 2, 4, "hub.BOTTOM:xyz or hub.17:z=0.1", "17,z: a support",
-                 "nodes, an axis and perhaps a displacement are needed, like 17,z,0.1")  # fmt: skip
-_LOAD = _Kind("CLOAD", 3, 3, "hub.TOP:z=-100", "17,z,-100: a load",
-              "nodes, an axis and a force are needed, like 17,z,-100")  # fmt: skip
-
-# Keywords of input files that other options stand for; of loads beside supports.
-_CONTACT = {"CONTACTPAIR", "SURFACEINTERACTION", "SURFACEBEHAVIOR"}
-_LOADS = {"CLOAD", "DLOAD", "DSLOAD"}
+_SUPPORT = _Kind(
+    "BOUNDARY", 2, 4, "hub.BOTTOM:xyz or hub.17:z=0.1", "17,z: a support",
+    "nodes, an axis and perhaps a displacement are needed, like 17,z,0.1",
+    "CLOAD DLOAD DSLOAD CONTACTPAIR SURFACEINTERACTION SURFACEBEHAVIOR",
+)  # fmt: skip
+_LOAD = _Kind(
+    "CLOAD", 3, 3, "hub.TOP:z=-100", "17,z,-100: a load", "nodes, an axis and a force are needed, like 17,z,-100",
+    "BOUNDARY CONTACTPAIR SURFACEINTERACTION SURFACEBEHAVIOR",
+)  # fmt: skip
 
 
 class _Condition(NamedTuple):
@@ -144,7 +147,7 @@ def _press(setting: Setting, model: MeshModel) -> None:
     for count, kind in sorted(set(zip(counts.tolist(), faces.type.tolist()))):
         face = faces.node[(counts == count) & (faces.type == kind), :count]
         dimensions = dimensions_of(kind)
-        force = pressure * pressure_forces(model.position[face][..., :dimensions], is_ring(kind))
+        force = pressure * pressure_forces(model.mesh.position[face][..., :dimensions], is_ring(kind))
         row = model.row[face][..., :dimensions]
         np.add.at(model.load, row[row >= 0], force[row >= 0])
         moves = moves or bool((row >= 0).any())
@@ -155,38 +158,31 @@ def _press(setting: Setting, model: MeshModel) -> None:
 # ---- files
 
 
-def _file(given: Options, setting: Setting, kind: _Kind, model: MeshModel) -> Iterator[_Condition]:
+def _file(given: Options, setting: Setting, kind: _Kind, model: MeshModel) -> list[_Condition]:
     """The lines of FILE, or of BODY=FILE, whose nodes are all of that body."""
     name, equals, _ = setting.value.partition("=")
     named = (f"{body.name}." for body in model.bodies if equals and body.name.upper() == name.upper())
     body = next(named, "")
     path = setting.path(len(body))
-    lines = [line.partition("#")[0].strip(" \r") for line in read_text(path).lines]
-    begin = next((line for line in lines if line and not line.startswith("**")), "")
-    found = _deck(given, path, kind) if begin[:1] == "*" else _table(path, lines, kind)
+    lines = [(Place(path, k), line.partition("#")[0].strip(" \r")) for k, line in enumerate(read_text(path).lines, 1)]
+    rows = [(place, _cells(line)) for place, line in lines if line and not line.startswith("**")]
+    found = _deck(given, path, kind) if rows and rows[0][1][0][:1] == "*" else _table(rows, kind)
     conditions = [condition._replace(nodes=body + condition.nodes) for condition in found]
     if not conditions:
         raise FileError(f"{quoted_path(path)} has no line like {kind.line}", Status.ERR_FILE)
-    return iter(conditions)
+    return conditions
 
 
-def _table(path: str, lines: Sequence[str], kind: _Kind) -> Iterator[_Condition]:
+def _table(rows: Sequence[tuple[Place, list[str]]], kind: _Kind) -> Iterator[_Condition]:
     """Lines NODES, AXES and VALUE; a heading may give the columns another order."""
-    order: list[int] = []
-    for number, line in enumerate(lines, 1):
-        if not line or line.startswith("**"):
-            continue
-        cells = _cells(line)
-        refuse: Refuse = partial(refusal, Place(path, number))
-        if not order:
-            order = [_HEADINGS.get(cell.lower(), -1) for cell in cells]
-            if -1 not in order and sorted(order) != list(range(len(order))):
-                raise refuse("the columns are nodes, axes and value, each once")
-            if -1 not in order:
-                continue
-            order = [0, 1, 2]
-        row = dict(zip(order, cells))
-        if not kind.least <= len(cells) <= len(order) or not {0, 1} <= row.keys():
+    order = [_HEADINGS.get(cell.lower(), -1) for cell in rows[0][1]] if rows else []
+    has_heading = -1 not in order
+    if has_heading and sorted(order) != list(range(len(order))):
+        raise refusal(rows[0][0], "the columns are nodes, axes and value, each once")
+    for place, cells in rows[has_heading:]:
+        row = dict(zip(order if has_heading else range(3), cells))
+        refuse: Refuse = partial(refusal, place)
+        if not kind.least <= len(cells) <= (len(order) if has_heading else 3) or not {0, 1} <= row.keys():
             raise refuse(kind.needed)
         yield _condition(refuse, row[0], row[1], row.get(2))
 
@@ -202,10 +198,9 @@ def _deck(given: Options, path: str, kind: _Kind) -> Iterator[_Condition]:
     """The lines under *BOUNDARY or *CLOAD of an input file of Abaqus or CalculiX, of one load case."""
     paths: list[str] = []
     step, steps = 0, set[int]()
-    skipped = _CONTACT | ({"BOUNDARY"} if kind is _LOAD else _LOADS)
     for block in read_blocks(path, paths):
         step += block.keyword == "STEP"
-        if block.keyword in skipped:
+        if block.keyword in kind.skipped.split():
             continue
         parameters = parameters_of(block)
         if block.keyword == kind.keyword:

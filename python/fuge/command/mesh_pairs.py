@@ -96,7 +96,7 @@ def _pair(setting: Setting, options: dict[str, Any], model: MeshModel) -> MeshPa
     if normal is not None:
         if len(normal) != dimensions:
             raise setting.refuse(f"--normals needs one number for each axis, {dimensions} in all")
-        options["normal"] = np.broadcast_to(normal, (model.number.size, dimensions))
+        options["normal"] = np.broadcast_to(normal, (model.mesh.node.size, dimensions))
     options["revolution"] = any(is_ring(name) for name in types)
     clearance = options.pop("clearance", 0.0)
     surfaces = _surface(model, contact, dimensions, setting), _surface(model, opposite, dimensions, setting)
@@ -105,7 +105,7 @@ def _pair(setting: Setting, options: dict[str, Any], model: MeshModel) -> MeshPa
 
 
 def _surface(model: MeshModel, faces: Faces, dimensions: int, setting: Setting) -> Surface:
-    node = np.ascontiguousarray(model.position[:, :dimensions])
+    node = np.ascontiguousarray(model.mesh.position[:, :dimensions])
     if faces.body.stiffness is None:
         return Surface(node, faces.node)
     if (model.row[faces.node[faces.node >= 0], :dimensions] < 0).all():

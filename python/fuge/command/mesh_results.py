@@ -18,7 +18,6 @@ from fuge.command.run import Outcome, Report
 from fuge.command.tables import Column, Table, number_text, write_lines
 from fuge.contact import Contact
 from fuge.errors import Error
-from fuge.mesh import join_meshes
 
 Array = NDArray[np.float64]
 
@@ -50,7 +49,7 @@ def check_field(given: Options, model: MeshModel) -> None:
     if not _is_mesh_file(path):
         return
     try:
-        join_meshes([body.mesh for body in model.bodies]).write(os.devnull)
+        model.mesh.write(os.devnull)
     except Error as failure:
         raise CommandError(f"--field {path}: {failure.message}", failure.status) from None
 
@@ -63,13 +62,13 @@ def outcome(
     comments = report.comments(contact.info.contacts)
     for k, pair in enumerate(pairs):
         comments += _pair_comments(model, k, pair, action[points.pair == k].sum(axis=0), points)
-    place, pressure = model.position[points.node], contact.force / points.area
+    place, pressure = model.mesh.position[points.node], contact.force / points.area
     direction = np.pad(points.direction, ((0, 0), (0, 3 - points.direction.shape[1])))
     numbers = (*place.T, *direction.T, points.area, contact.force, pressure, contact.gap)
     columns = [
         Column("pair", points.pair + 1),
         Column("body", [model.bodies[k].name for k in model.owner[points.node]]),
-        Column("node", model.number[points.node]),
+        Column("node", model.mesh.node[points.node]),
         *map(Column, "x y z nx ny nz area force pressure gap".split(), numbers),
         Column("state", state_words(contact.force, contact.state, points.play, points.excluded)),
     ]
@@ -85,7 +84,7 @@ def outcome(
             "contact_force": _at_nodes(model, points, action),
             "body": model.owner + 1.0,
         }
-        join_meshes([body.mesh for body in model.bodies]).write(path, values)
+        model.mesh.write(path, values)
 
     draw = _picture(place, pressure, points.direction.shape[1])
     return Outcome(Table(columns, comments), write_field=write_field, draw=draw)
@@ -122,7 +121,7 @@ def _pair_comments(model: MeshModel, k: int, pair: MeshPair, force: Array, point
     yield f"pair {k + 1}: {pair.source.value}, force on {pair.faces[0].body.name}: {values}"
     if pair.options["revolution"]:
         yield f"pair {k + 1}, sum of the radial forces, which balance each other: {number_text(force[0], 16, 24)}"
-    lonely = sorted(model.number[points.unpaired[points.unpaired[:, 0] == k, 1]].tolist())
+    lonely = sorted(model.mesh.node[points.unpaired[points.unpaired[:, 0] == k, 1]].tolist())
     for begin in range(0, len(lonely), _NODES_ON_A_LINE):
         nodes = " ".join(map(str, lonely[begin : begin + _NODES_ON_A_LINE]))
         yield f"pair {k + 1}, nodes without an opposite: {nodes}"
@@ -134,7 +133,7 @@ def _is_mesh_file(path: str) -> bool:
 
 def _at_nodes(model: MeshModel, points: Points, values: Array) -> Array:
     """Sums of the values of points at all nodes."""
-    total = np.zeros((model.number.size, *values.shape[1:]))
+    total = np.zeros((model.mesh.node.size, *values.shape[1:]))
     np.add.at(total, points.node, values)
     return total
 

@@ -16,7 +16,6 @@ from fuge.body import Body
 from fuge.columns import CompressedColumns
 from fuge.command.errors import CommandError, UsageError
 from fuge.command.matrices import solve_contact
-from fuge.command.mesh_bodies import read_model
 from fuge.command.mesh_loads import take_conditions
 from fuge.command.mesh_model import MeshModel
 from fuge.command.mesh_pairs import MeshPair, read_pairs
@@ -41,7 +40,7 @@ _NUMBERED = re.compile(r"\b(degree of freedom|nodes?|faces?|pair) (\d+)(?: and (
 
 def solve_meshes(given: Options, log: Log) -> Outcome:
     """--mesh and --pair."""
-    model = read_model(given, log)
+    model = MeshModel(given, log)
     check_field(given, model)
     pairs = read_pairs(given, model)
     for pair in pairs:
@@ -85,7 +84,7 @@ def _find_points(model: MeshModel, pairs: Sequence[MeshPair]) -> tuple[Points, l
         warned += remarks
     gap = found.gap + np.array([pair.clearance for pair in pairs])[found.pair]
     kept = _moving_points(model, found, gap)
-    kept = kept[np.lexsort((model.number[found.node[kept]], found.pair[kept]))]
+    kept = kept[np.lexsort((model.mesh.node[found.node[kept]], found.pair[kept]))]
     play = found.gap_upper[kept] if np.isfinite(found.gap_upper[kept]).any() else None
     names = ("pair", "node", "direction", "dof", "normal", "area")
     chosen: dict[str, Any] = {name: getattr(found, name)[kept] for name in names}
@@ -98,7 +97,7 @@ def _moving_points(model: MeshModel, found: ContactPairs, gap: NDArray[np.float6
     used = (found.dof >= 0) & (size > _NOTHING * size.max(axis=1, keepdims=True))
     moves = (used & ~model.held[found.dof]).any(axis=1)
     gap = gap + np.where(found.dof >= 0, found.normal * model.displacement[found.dof], 0.0).sum(axis=1)
-    rounding = _NOTHING * abs(model.position).max()
+    rounding = _NOTHING * abs(model.mesh.position).max()
     for k in np.flatnonzero(~moves & ((gap < -rounding) | (gap > found.gap_upper + rounding)))[:1]:
         reason = f"are held by supports with a gap of {gap[k]:.6g}, beyond a stop"
         remedy = "free or move one of them, or leave the faces there out"
