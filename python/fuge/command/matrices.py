@@ -51,11 +51,11 @@ def solve_influence(given: Options, log: Log) -> Outcome:
 
 def solve_body(given: Options, log: Log) -> Outcome:
     """--stiffness and --contact."""
-    body, points = _read_body(given, log)
+    body = _read_body(given, log)
     with caught() as condensation:
         condensed = body.condense()
-    log.say(f"the body is condensed to {points} points")
-    gap = _vector(given.file("gap"), points) + condensed.displacement
+    log.say(f"the body is condensed to {condensed.displacement.size} points")
+    gap = _vector(given.file("gap"), condensed.displacement.size) + condensed.displacement
     report = Report(log)
     with fuge.Solver(condensed.influence, threads=given.threads(), progress=log.progress) as solver:
         _set_points(given, solver, gap)
@@ -120,8 +120,8 @@ def _influence(given: Options, log: Log) -> tuple[Array, Any]:
     return _vector(given.file("gap"), len(alpha)), alpha
 
 
-def _read_body(given: Options, log: Log) -> tuple[fuge.Body, int]:
-    """The body with its supports, loads and contact points, and their number."""
+def _read_body(given: Options, log: Log) -> fuge.Body:
+    """The body with its supports, loads and contact points."""
     stiffness = fuge.read_stiffness(given.file("stiffness"), names_path=given.file("rows") or None)
     degrees = stiffness.shape[0]
     log.say(f"stiffness matrix of {degrees} rows is read")
@@ -134,7 +134,7 @@ def _read_body(given: Options, log: Log) -> tuple[fuge.Body, int]:
         body.fix(*_fixed(given.file("fixed")))
     if given.has("external"):
         body.set_load(_vector(given.file("external"), degrees))
-    return body, len(dof)
+    return body
 
 
 def stored(stiffness: fuge.CompressedColumns) -> Any:
@@ -188,8 +188,7 @@ def _set_points(given: Options, solver: fuge.Solver, gap: Array) -> None:
     """Gaps, springs, limits of the forces and excluded points."""
     solver.set_gap(gap, _play(given, gap.size))
     solver.set_compliance(_law(given, "compliance", solver.n))
-    limits = [_infinite(_law(given, name, solver.n)) for name in ("limit", "limit-upper")]
-    solver.set_limits(*limits)
+    solver.set_limits(*(_infinite(_law(given, name, solver.n)) for name in ("limit", "limit-upper")))
     solver.set_excluded(_excluded(given, solver.n))
 
 
