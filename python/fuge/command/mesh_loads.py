@@ -179,7 +179,7 @@ def _table(rows: Sequence[tuple[Place, list[str]]], kind: _Kind) -> Iterator[_Co
     has_heading = -1 not in order
     if has_heading and sorted(order) != list(range(len(order))):
         raise refusal(rows[0][0], "the columns are nodes, axes and value, each once")
-    for place, cells in rows[has_heading:]:
+    for place, cells in rows[1 if has_heading else 0 :]:
         row = dict(zip(order if has_heading else range(3), cells))
         refuse: Refuse = partial(refusal, place)
         if not kind.least <= len(cells) <= (len(order) if has_heading else 3) or not {0, 1} <= row.keys():
@@ -217,11 +217,8 @@ def _data(refuse: Refuse, items: list[str], kind: _Kind) -> _Condition:
     """Node, direction and force, or node, first and perhaps last direction and displacement."""
     if not kind.least <= len(items) <= kind.most:
         raise refuse(kind.needed)
-    node, first, last, number = items[0], items[1], items[1], "".join(items[3:]) or None
-    if kind is _LOAD:
-        number = items[2]
-    elif items[2:] and items[2]:
-        last = items[2]
+    node, first, third, fourth = [*items, "", ""][:4]
+    last, number = (first, third) if kind is _LOAD else (third or first, fourth or None)
     for word in (first, last):
         if word not in _DIRECTIONS:
             raise refuse(f'"{word}" is no axis: 1 to 6')

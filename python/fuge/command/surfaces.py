@@ -160,7 +160,8 @@ def _spacing(given: Options, known: tuple[float, float] | None, scale: float) ->
     """The spacings of the file, scaled, or those of the options."""
     path = given.file("surface")
     if given.has("spacing") == (known is not None):
-        remedy = "give --spacing, one or two lengths, or comments # spacing_x = .. and # spacing_y = .. before its heights"
+        comments = "comments # spacing_x = .. and # spacing_y = .. before its heights"
+        remedy = f"give --spacing, one or two lengths, or {comments}"
         reason = f'"{path}" does not say how far apart its points are: {remedy}'
         if known is not None:
             own = f"spacings of its own, {short_text(known[0])} and {short_text(known[1])}"
