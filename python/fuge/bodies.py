@@ -17,7 +17,7 @@ from fuge.columns import CompressedColumns, compressed, compressed_dense, is_spa
 from fuge.contact import Info, info_of
 from fuge.errors import Status, error
 from fuge.pairs import Normals, PairMethod, Surface, pair_options, surface_arguments
-from fuge.reactions import opening_rows, stiffness_rows
+from fuge.reactions import opening_rows, symmetric
 from fuge.solver import ALL_CORES, Method, chosen_options
 
 
@@ -308,7 +308,7 @@ class ElasticBodies(Owner):
     ) -> list[NDArray[np.float64]]:
         """Forces of the supports of each body: what its stiffness, its load and the contact forces leave."""
         given = zip(self._matrices, self._fixed, self._loads, displacement)
-        found = [stiffness_rows(matrix, fixed) @ u - load[fixed] for matrix, fixed, load, u in given]
+        found = [symmetric(matrix)[fixed] @ u - load[fixed] for matrix, fixed, load, u in given]
         if any(np.isin(self._fixed[body], np.asarray(surface.dof)).any() for body, surface in self._surfaces):
             with warnings.catch_warnings():
                 # The solve has given them.

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
-from typing import Any, Callable, Sequence
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,14 +11,14 @@ from scipy.sparse import dia_matrix
 
 from fuge import _arrays
 from fuge._calls import Owner, call, new_handle
-from fuge._library import function
+from fuge._library import function, has_sparse
 from fuge._messages import in_python
 from fuge.cases import Cases, checked_names
 from fuge.columns import compressed, is_sparse, require_sparse, stacked
 from fuge.dof_names import DofNames
 from fuge.errors import Status, error, finish
 from fuge.links import Links
-from fuge.reactions import opening_rows, stiffness_rows
+from fuge.reactions import opening_rows, symmetric
 from fuge.solver import Solver
 from fuge.stability import free_motions, modes_of, null_space
 
@@ -83,12 +82,15 @@ class Body(Owner):
 
     def __init__(self, stiffness: Any) -> None:
         self._names = DofNames(stiffness)
-        if is_sparse(stiffness):
-            self._sparse(stiffness)
+        if not is_sparse(stiffness):
+            dense = _arrays.symmetric("stiffness", stiffness)
+            self._create("fuge_body_dense", dense, len(dense), dense, len(dense))
             return
-        matrix = _arrays.symmetric("stiffness", stiffness)
-        self._create("fuge_body_dense", matrix.shape[0], matrix, matrix.shape[0])
-        self._keep(matrix, matrix, partial(Body, matrix))
+        matrix = compressed("stiffness", stiffness)
+        if matrix.shape[0] != matrix.shape[1]:
+            raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
+        require_sparse()
+        self._create("fuge_body_sparse", matrix, matrix.shape[0], matrix.column, matrix.row, matrix.value)
 
     @classmethod
     def from_band(cls, ab: ArrayLike, *, upper: bool = False) -> Body:
@@ -105,21 +107,14 @@ class Body(Owner):
         rows, degrees = band.shape
         body = cls.__new__(cls)
         body._names = DofNames(None)
-        body._create("fuge_body_band", degrees, rows - 1, band, rows, int(bool(upper)))
         diagonals = (rows - 1 if upper else 0) - np.arange(rows)
         matrix = dia_matrix((band, diagonals), shape=(degrees, degrees))
-        body._keep(band, matrix, partial(cls.from_band, band, upper=upper))
+        body._create("fuge_body_band", matrix, degrees, rows - 1, band, rows, int(bool(upper)))
+        body._handle.keep(band)
         return body
 
-    def _sparse(self, stiffness: Any) -> None:
-        matrix = compressed("stiffness", stiffness)
-        if matrix.shape[0] != matrix.shape[1]:
-            raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
-        require_sparse()
-        self._create("fuge_body_sparse", matrix.shape[0], matrix.column, matrix.row, matrix.value)
-        self._keep(matrix, matrix, partial(Body, matrix))
-
-    def _create(self, create: str, degrees: int, *arguments: Any) -> None:
+    def _create(self, create: str, matrix: Any, degrees: int, *arguments: Any) -> None:
+        """Make the body of a matrix, to whose arrays the library refers."""
         self.degrees = degrees
         self._dof, self._normal = np.empty((0, 1), dtype=np.intc), np.empty((0, 1))
         self._fixed, self._settled = np.empty(0, dtype=np.intc), np.empty(0)
@@ -128,11 +123,8 @@ class Body(Owner):
         self._links: Links | None = None
         self._solver: Solver | None = None
         self._handle = new_handle("body", create, "fuge_body_free", degrees, *arguments)
-
-    def _keep(self, used: Any, matrix: Any, again: Callable[[], Body]) -> None:
-        """Keep what the library refers to, the matrix, and how to make the body once more."""
-        self._handle.keep(used)
-        self._matrix, self._again = matrix, again
+        self._handle.keep(matrix)
+        self._matrix = matrix
 
     def __repr__(self) -> str:
         held = f"{self.degrees} degrees of freedom, {self._fixed.size} of them fixed"
@@ -288,7 +280,7 @@ class Body(Owner):
         if load is not None:
             p = _arrays.doubles("load", load, u.shape, (self.degrees,))
         self._check_dof("fixed", self._fixed, 0)
-        held, contact = stiffness_rows(self._matrix, self._fixed), self._openings()[:, self._fixed]
+        held, contact = symmetric(self._matrix)[self._fixed], self._openings()[:, self._fixed]
         return np.asarray((held @ u.T).T - (contact.T @ f.T).T - p[..., self._fixed])
 
     def solve_cases(
@@ -405,12 +397,12 @@ class Body(Owner):
         if degrees.size == 0:
             raise error(Status.ERR_SIZE, "there is no node: position and dof are empty")
         self._check_dof("dof", degrees)
-        with self._again() as probe:
+        stiffness = symmetric(self._matrix)
+        with Body(stiffness if has_sparse() or stiffness is self._matrix else stiffness.toarray()) as probe:
             probe.fix(self._fixed)
             modes = modes_of(probe)
-        openings = self._openings()
-        free = modes @ null_space(openings @ modes, np.abs(self._normal).max(initial=0.0))
-        return free_motions(free, places, degrees, self._names.most)
+        free = modes @ null_space(self._openings() @ modes, np.abs(self._normal).max(initial=0.0))
+        return free_motions(free, rigid_modes(places), degrees, self._names.most)
 
     def _pose(self) -> tuple[Solver, Links]:
         """A solver with the problem of the links, kept until the body is condensed again."""

@@ -20,6 +20,8 @@ from fuge.tables import Table
 
 TableKind = Literal["links", "reactions"]
 
+_NAMED = {"links": "link", "reactions": "support"}
+
 _STATES: dict[int, str] = {
     PointState.OPEN: "open",
     PointState.AT_LOWER_STOP: "contact",
@@ -102,15 +104,14 @@ class Cases:
         names, values = self._columns(kind)
         columns: dict[str, NDArray[Any]] = {
             "case": np.repeat(np.array(self.names, dtype=object), len(names)),
-            kind[:-1] if kind == "links" else "support": np.tile(np.array(names, dtype=object), len(self)),
+            _NAMED[kind]: np.tile(np.array(names, dtype=object), len(self)),
             **{name: value.reshape(-1) for name, value in values.items()},
         }
         if kind == "links":
             states = np.array([_STATES[k] for k in self.state.reshape(-1).tolist()], dtype=object)
             columns["state"] = np.where(np.repeat(self.status < 0, len(names)), "failed", states)
             for name in ("force_bound", "gap_bound") if self.proof else ():
-                unknown = np.full(len(names), np.nan)
-                bounds = [unknown if proof is None else getattr(proof, name).reshape(-1) for proof in self.proof]
+                bounds = [getattr(proof, name, np.full(len(names), np.nan)).reshape(-1) for proof in self.proof]
                 columns[name] = np.concatenate(bounds)
         return Table(columns)
 
@@ -128,13 +129,13 @@ class Cases:
             the gap; or support, smallest_reaction and so on. No case has a value: NaN, and no name.
         """
         names, values = self._columns(kind)
-        columns = {"link" if kind == "links" else "support": np.array(names, dtype=object)}
+        columns = {_NAMED[kind]: np.array(names, dtype=object)}
         called = np.array([*self.names, ""], dtype=object)
         for name, value in values.items():
             found = envelope(value)
-            for end, which in (("smallest", found.smallest_case), ("largest", found.largest_case)):
+            for end in ("smallest", "largest"):
                 columns[f"{end}_{name}"] = getattr(found, end)
-                columns[f"{end}_{name}_case"] = called[which]
+                columns[f"{end}_{name}_case"] = called[getattr(found, f"{end}_case")]
         return Table(columns)
 
     def write(self, path: PathLike, kind: TableKind = "links") -> None:
@@ -143,11 +144,11 @@ class Cases:
 
     def _columns(self, kind: str) -> tuple[Sequence[str], dict[str, NDArray[np.float64]]]:
         """Names of the links or supports, and their values, (cases, names)."""
+        if kind not in _NAMED:
+            raise error(Status.ERR_OPTION, f"kind is {kind!r}, but must be one of 'links', 'reactions'")
         if kind == "links":
             values = {name: getattr(self, name).reshape(len(self), -1) for name in ("force", "gap")}
             return self.links or [f"point {k}" for k in range(values["force"].shape[1])], values
-        if kind != "reactions":
-            raise error(Status.ERR_OPTION, f"kind is {kind!r}, but must be one of 'links', 'reactions'")
         if self.reaction is None:
             raise error(Status.ERR_CALL_ORDER, "only the cases of Body.solve_cases have reactions")
         return self.supports, {"reaction": self.reaction}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import replace
-from typing import TYPE_CHECKING, Sequence
+from typing import TYPE_CHECKING, Any, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -34,18 +34,16 @@ def solve_link_cases(
     _warn_of_idle(body, links.names, body._settled[None] if moved is None else moved)
     displacement, resultant = np.empty((number, body._n)), np.empty((number, body._mode_count()))
     refused = np.zeros(number, dtype=np.intc)
-    with body._handle.use() as pointer:
-        code = function("fuge_body_get_cases")(pointer, number, forces, moved, displacement, resultant, refused)
-        message = in_python(body._read_message(pointer), body._shapes)
-        reasons = [_case_message(pointer, k) for k in range(number if code >= 0 else 0)]
-    if code < 0:
-        finish(code, body._named(message))
+    arguments = number, forces, moved, displacement, resultant, refused
+    code, message, reasons = _call_cases(body, "fuge_body_get_cases", number, arguments)
+    # Of loads that are refused the cases tell.
+    finish(min(code, 0), message)
     found = solver._solve_cases(displacement + links.gap, resultant if resultant.size else None, names, prove)
     found = replace(found, links=links.names, supports=body._support_names())
     for k in np.flatnonzero(found.status):
         status = int(refused[k] or found.status[k])
         if refused[k]:
-            told = body._named(reasons[k])
+            told = reasons[k]
         elif status == Status.ERR_NO_EQUILIBRIUM:
             told = _collapse(body, forces[k])
         else:
@@ -60,24 +58,27 @@ def _recovered(body: Body, forces: Doubles, moved: Doubles | None, found: Cases)
     """The cases with displacements and reactions; a warning if some are out of balance."""
     number, displacement = len(forces), np.empty(forces.shape)
     arguments = number, forces, moved, found.force, found.motion, displacement, found.status
-    with body._handle.use() as pointer:
-        code = function("fuge_body_recover_cases")(pointer, *arguments)
-        message = in_python(body._read_message(pointer), body._shapes)
-        remarks = [_case_message(pointer, k) for k in range(number if code > 0 else 0)]
-    finish(code, body._named(message))
+    code, message, remarks = _call_cases(body, "fuge_body_recover_cases", number, arguments)
+    finish(code, message)
     reaction = body.reaction(displacement, found.force, forces)
     reaction[found.status < 0] = np.nan
     done = replace(found, displacement=displacement, reaction=reaction)
-    for k, remark in enumerate(remarks):
+    for k, remark in enumerate(remarks if code > 0 else ()):
         if remark and found.status[k] == Status.DONE:
-            done = reported(done, k, Status(code), body._named(remark))
+            done = reported(done, k, Status(code), remark)
     return done
 
 
-def _case_message(pointer: ctypes.c_void_p, k: int) -> str:
-    text = ctypes.create_string_buffer(MESSAGE_LENGTH + 1)
-    function("fuge_body_case_message")(pointer, k, text, MESSAGE_LENGTH + 1)
-    return in_python(text.value.decode(errors="replace"), {})
+def _call_cases(body: Body, name: str, number: int, arguments: tuple[Any, ...]) -> tuple[int, str, list[str]]:
+    """Call a function of all cases, and read what it says of each."""
+    text, told = ctypes.create_string_buffer(MESSAGE_LENGTH + 1), []
+    with body._handle.use() as pointer:
+        code = function(name)(pointer, *arguments)
+        message = in_python(body._read_message(pointer), body._shapes)
+        for k in range(number if code >= 0 else 0):
+            function("fuge_body_case_message")(pointer, k, text, MESSAGE_LENGTH + 1)
+            told.append(body._named(in_python(text.value.decode(errors="replace"), {})))
+    return code, body._named(message), told
 
 
 def _warn_of_idle(body: Body, names: Sequence[str], moved: Doubles) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import math
 from collections.abc import Sequence
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,12 +22,8 @@ MemberKind = Literal["tension_only", "compression_only"]
 _KINDS = Words("kind", MemberKind)
 
 
-class _Row(NamedTuple):
-    """By how much degrees of freedom open a link, and the distance of its stops."""
-
-    dof: NDArray[np.intc]
-    normal: NDArray[np.float64]
-    play: float
+# Degrees of freedom, by how much they open a link, and the distance of its stops.
+_Row = tuple[NDArray[np.intc], NDArray[np.float64], float]
 
 
 class Links(Owner):
@@ -107,8 +103,7 @@ class Links(Owner):
         _arrays.check_shape("direction", along.shape, degrees.shape)
         law = _law(gap, play, compliance, limit, limit_upper)
         values = degrees.size, degrees, along, ctypes.byref(law)
-        self._add("fuge_links_add_support", name, *values)
-        self._rows.append(_Row(degrees, _unit(along), law.play))
+        self._add("fuge_links_add_support", name, values, (degrees, _unit(along), law.play))
 
     def add_gap(
         self,
@@ -132,8 +127,8 @@ class Links(Owner):
         _arrays.check_shape("direction", along.shape, first.shape)
         law = _law(gap, play, compliance, limit, limit_upper)
         values = first.size, first, second, along, ctypes.byref(law)
-        self._add("fuge_links_add_gap", name, *values)
-        self._rows.append(_Row(np.r_[second, first], np.r_[_unit(along), -_unit(along)], law.play))
+        unit = _unit(along)
+        self._add("fuge_links_add_gap", name, values, (np.r_[second, first], np.r_[unit, -unit], law.play))
 
     def add_member(
         self,
@@ -173,19 +168,15 @@ class Links(Owner):
         InputError
             The member has no length, area or modulus, or its ends do not move along it.
         """
-        first, second = _axes("dof_a", dof_a), _axes("dof_b", dof_b)
-        place_a, place_b = _components("position_a", position_a), _components("position_b", position_b)
-        for label, found in (("dof_b", second), ("position_a", place_a), ("position_b", place_b)):
-            _arrays.check_shape(label, found.shape, first.shape)
+        first, second, place_a, place_b = _ends(dof_a, dof_b, position_a, position_b)
         member = struct("fuge_member")
         member.kind = _KINDS.number(kind)
         member.area, member.modulus = _arrays.number("area", area), _arrays.number("modulus", modulus)
         member.slack = _arrays.number("slack", slack)
         setattr(member, "yield", _arrays.number("yield_force", yield_force))
         values = first.size, first, second, place_a, place_b, ctypes.byref(member)
-        self._add("fuge_links_add_member", name, *values)
-        along = _unit(place_b - place_a) * (1 if kind == "tension_only" else -1)
-        self._rows.append(_Row(np.r_[first, second], np.r_[along, -along], math.inf))
+        unit = _unit(place_b - place_a) * (1 if kind == "tension_only" else -1)
+        self._add("fuge_links_add_member", name, values, (np.r_[first, second], np.r_[unit, -unit], math.inf))
 
     @property
     def gap(self) -> NDArray[np.float64]:
@@ -224,21 +215,22 @@ class Links(Owner):
 
     def _contact(self) -> tuple[NDArray[np.intc], NDArray[np.float64]]:
         """Degrees of freedom and normals of all links, as :meth:`Body.set_contact` takes them."""
-        width = max((row.dof.size for row in self._rows), default=0)
+        width = max((dof.size for dof, _, _ in self._rows), default=0)
         dof, normal = np.full((self.count, width), -1, dtype=np.intc), np.zeros((self.count, width))
-        for k, row in enumerate(self._rows):
-            dof[k, : row.dof.size], normal[k, : row.dof.size] = row.dof, row.normal
+        for k, (degrees, unit, _) in enumerate(self._rows):
+            dof[k, : degrees.size], normal[k, : unit.size] = degrees, unit
         return dof, normal
 
     def _play(self) -> NDArray[np.float64] | None:
         """Distances of the stops, if any link has two."""
-        play = np.array([row.play for row in self._rows])
+        play = np.array([play for _, _, play in self._rows])
         return play if np.isfinite(play).any() else None
 
-    def _add(self, add: str, name: str | None, *arguments: Any) -> None:
-        """Call a function that adds a link, and remember its name."""
+    def _add(self, add: str, name: str | None, arguments: Sequence[Any], row: _Row) -> None:
+        """Call a function that adds a link, and remember its name and what opens it."""
         self._call(add, *arguments, None if name is None else name.encode(errors="surrogateescape"))
         self._names.append(name if name and name.strip() else f"link {len(self._names) + 1}")
+        self._rows.append(row)
 
 
 def remove_member(
@@ -278,10 +270,7 @@ def remove_member(
     matrix = compressed("stiffness", stiffness) if sparse else compressed_dense("stiffness", stiffness)
     if matrix.shape[0] != matrix.shape[1]:
         raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
-    first, second = _axes("dof_a", dof_a), _axes("dof_b", dof_b)
-    place_a, place_b = _components("position_a", position_a), _components("position_b", position_b)
-    for label, found in (("dof_b", second), ("position_a", place_a), ("position_b", place_b)):
-        _arrays.check_shape(label, found.shape, first.shape)
+    first, second, place_a, place_b = _ends(dof_a, dof_b, position_a, position_b)
     span = place_b - place_a
     length = math.hypot(*span)
     if length == 0.0:
@@ -312,6 +301,15 @@ def _unit(direction: NDArray[np.float64]) -> NDArray[np.float64]:
         unit[:3] /= np.abs(unit[:3]).max()
         unit[:3] /= np.linalg.norm(unit[:3])
     return unit
+
+
+def _ends(dof_a: ArrayLike, dof_b: ArrayLike, position_a: ArrayLike, position_b: ArrayLike) -> tuple[Any, ...]:
+    """Degrees of freedom and places of the ends of a member, of one shape."""
+    first, second = _axes("dof_a", dof_a), _axes("dof_b", dof_b)
+    place_a, place_b = _components("position_a", position_a), _components("position_b", position_b)
+    for label, found in (("dof_b", second), ("position_a", place_a), ("position_b", place_b)):
+        _arrays.check_shape(label, found.shape, first.shape)
+    return first, second, place_a, place_b
 
 
 def _axes(name: str, dof: ArrayLike) -> NDArray[np.intc]:

@@ -9,20 +9,14 @@ from numpy.typing import NDArray
 from scipy import sparse
 
 
-def stiffness_rows(matrix: Any, rows: NDArray[np.intc]) -> Any:
-    """Rows of a symmetric matrix, (rows, degrees), of which both triangles are given or one of them."""
+def symmetric(matrix: Any) -> Any:
+    """A dense matrix as it is, or compressed rows of a sparse one, with both triangles."""
     if isinstance(matrix, np.ndarray):
-        return matrix[rows]
-    columns = matrix.tocsc()
-    place = np.repeat(np.arange(columns.shape[1]), np.diff(columns.indptr))
-    entries = columns.data != 0.0
-    both = np.any(entries & (columns.indices > place)) and np.any(entries & (columns.indices < place))
+        return matrix
     # Columns are the rows of a symmetric matrix, and the transpose of compressed columns costs nothing.
-    found = columns.T[rows]
-    if both:
-        return found
-    diagonal = sparse.csr_matrix((columns.diagonal()[rows], (np.arange(rows.size), rows)), shape=found.shape)
-    return found + columns.tocsr()[rows] - diagonal
+    rows = matrix.tocsc().T
+    lower, upper = sparse.tril(rows, -1), sparse.triu(rows, 1)
+    return rows if lower.count_nonzero() and upper.count_nonzero() else (rows + (lower + upper).T).tocsr()
 
 
 def opening_rows(dof: NDArray[np.intc], normal: NDArray[np.float64], degrees: int) -> Any:

@@ -51,14 +51,17 @@ def modes_of(probe: Any) -> Doubles:
 
 
 def free_motions(
-    motions: Doubles, position: Doubles, dof: NDArray[np.intc], most: Callable[[Doubles], str]
+    motions: Doubles, basis: Doubles, dof: NDArray[np.intc], most: Callable[[Doubles], str]
 ) -> dict[str, Doubles]:
-    """Motions that nothing holds by their sentences, for each axis and each mechanism, whose `most` is told."""
+    """Motions that nothing holds by their sentences, for each axis and each mechanism, whose `most` is told.
+
+    The basis are translations and rotations of all nodes, whose degrees of freedom are `dof`.
+    """
     if motions.shape[1] == 0:
         return {}
-    dimensions = position.shape[1]
+    dimensions = dof.shape[1]
     moved = np.where((dof >= 0)[..., None], motions[dof], 0.0).reshape(-1, motions.shape[1])
-    basis = _rigid_motions(position)
+    basis[:, dimensions:] /= np.abs(basis[:, dimensions:]).max() or 1.0
     share = np.linalg.lstsq(basis, moved, rcond=None)[0]
     rigid = null_space(moved - basis @ share)
     share = share @ rigid
@@ -74,18 +77,6 @@ def free_motions(
     for part in np.hstack([null_space(rigid.T), rigid @ null_space(share)]).T:
         found[f"nothing holds a mechanism that moves {most(motions @ part)} most"] = part
     return {sentence: motions @ part / np.abs(motions @ part).max() for sentence, part in found.items()}
-
-
-def _rigid_motions(position: Doubles) -> Doubles:
-    """Translations along the axes and rotations about axes through the centre, as columns."""
-    nodes, dimensions = position.shape
-    place = np.zeros((nodes, 3))
-    place[:, :dimensions] = position - position.mean(axis=0)
-    place /= np.abs(place).max(initial=0.0) or 1.0
-    axes = np.eye(3)[:, None, :]
-    motions = np.concatenate([np.broadcast_to(axes, (3, nodes, 3)), np.cross(axes, place[None])])
-    kept = motions[[0, 1, 5], :, :2] if dimensions == 2 else motions
-    return np.asarray(kept.reshape(len(kept), -1).T)
 
 
 def _directions(columns: Doubles, axes: str) -> Iterator[tuple[str, Doubles]]:

@@ -105,7 +105,6 @@ GIVEN = (
     ("two_nodes", MODES, ""),
     ("two_nodes", f"{MODES} --motion 1=0.4", ""),
     ("two_nodes", "@two_nodes.txt", ""),
-    ("two_nodes", f"{LOADED} --threads 2", ""),
     ("excluded", f"{LOADED} --exclude 1", ""),
     ("tied", f"{LOADED} --play @two_nodes_play.mtx", ""),
     ("limited", f"{TWO} --load 20 --compliance 0.3 --limit limits.mtx", ""),
@@ -129,11 +128,8 @@ REFUSED = (
     (f"{TWO} --load -1", "load F_0 = -1.0+ is negative", 4),
     (f"{LOADED} --limit 0.5", "within their limits", 4),
     (f"{LOADED} --compliance -1", r"compliance\(1\) = -1[.]0+ is negative", 3),
-    (f"{LOADED} --limit no_such.mtx", '"no_such.mtx" cannot be opened', 3),
-    (f"{PAIR} --limit 3", "--limit needs --alpha or --contact", 2),
     (f"{PAIR} --prove", "--prove needs --alpha, --contact, --deck or --surface", 2),
     (f"{PAIR} --gap gap.mtx", "--gap needs --alpha or --contact", 2),
-    ("--pair A:B", "one of --alpha, --stiffness and --surface is needed", 2),
     ("--pair A:B --stiffness a.sti", "--pair needs --mesh, the mesh with the surfaces", 2),
     ("--mesh a.inp --stiffness a.sti", "--mesh needs --pair, the surfaces in contact", 2),
     ("--mesh a.inp --pair A:B", "--stiffness is needed: at least one body has to be elastic", 2),
@@ -143,23 +139,13 @@ REFUSED = (
     (BEAM, "degree of freedom 4 still moves freely", 3),
     (f"{BLOCK} --floats --load 1", "nothing resists a motion of both together; prescribe the counter-body by", 3),
     (f"{BLOCK} --floats --exclude 1-3", "moves no point that may touch: exclude fewer points", 3),
-    (f"{BLOCK} --modes R.mtx --resultant w.mtx", "--modes needs --alpha", 2),
     (f"{BEAM} --fixed @two_nodes_alpha.mtx", r"entry \(1, 1\) = 2.00000E-001 is no degree of freedom", 3),
-    (
-        "--stiffness @block_stiffness.mtx --contact @beam_contact.mtx --gap @block_gap.mtx",
-        'beam_contact.mtx": a matrix of 2 x 10, n x 3 is needed',
-        3,
-    ),
+    (BLOCK.replace("@block_contact", "@beam_contact"), 'beam_contact.mtx": a matrix of 2 x 10, n x 3 is needed', 3),
     (f"{TWO} --laod 2", r'unknown option "--laod" \(did you mean --load\?\): see fuge --help', 2),
-    (f"{TWO} --colour 2", 'unknown option "--colour": see fuge --help', 2),
-    (f"{TWO} -x", 'unknown option "-x"', 2),
     (f"{TWO} --load", "--load needs a value", 2),
     (f"{TWO} --load two", '--load two: a number is needed, not "two"', 2),
     (f"{LOADED} --threads -1", "--threads -1: a number of threads is needed, or 0 for all cores", 2),
-    (f"{LOADED} --threads two", "--threads two: a number of threads is needed", 2),
     (f"{TWO} --gap gap.mtx", "--gap is given twice", 2),
-    (f"{LOADED} --load 3", "--load is given twice", 2),
-    (f"{LOADED} --stiffness K.mtx", "one of --alpha, --stiffness and --surface", 2),
     (TWO, "one of --load, --approach and --modes", 2),
     (f"{TWO} --modes R.mtx", "--modes and --resultant go together", 2),
     (f"{LOADED} --floats", "--floats needs --stiffness", 2),
@@ -168,13 +154,10 @@ REFUSED = (
     (f"{LOADED} --cases cases.csv", "--cases needs --deck or --links", 2),
     (f"{LOADED} --field a.csv", "--field needs --stiffness", 2),
     (f"{LOADED} --exclude 1,3", '--exclude 1,3: "3" is not within 1 to 2', 2),
-    (f"{LOADED} --exclude 2-1", '--exclude 2-1: "2-1" is no number of a point', 2),
     (f"{LOADED} --exclude 1-2", "all points are excluded", 4),
     (f"{MODES} --motion 2=1", '--motion 2=1: ".*two_nodes_modes.mtx" has 1 motions', 2),
-    (f"{MODES} --motion 1", "--motion 1: the number of a motion and its value are needed", 2),
     (f"{MODES} --motion 1=1 --motion 1=2", "--motion 1=2: motion 1 is given twice", 2),
     (f"{LOADED} --motion 1=1", "--motion needs --modes", 2),
-    (f"{TWO} --alpha 0 --load 2", "--alpha is given twice", 2),
     ("--alpha 0 --gap @two_nodes_gap.mtx --load 2", "--alpha 0 needs --compliance", 2),
     ("no_such.txt", '"no_such.txt" cannot be opened', 3),
     ("@two_nodes.txt @two_nodes.txt", "are two job files", 2),
@@ -185,12 +168,9 @@ REFUSED = (
     ("comment.txt", 'comment.txt" has no options', 2),
     ("value.txt", 'value.txt", line 1: --alpha needs a value', 2),
     ("flag.txt", 'flag.txt", line 1: --fill has no value', 2),
-    ("--verbose", "one of --alpha, --stiffness and --surface is needed", 2),
     ("", "no options are given", 2),
     (f"{BEAM} --fixed @beam_fixed.mtx --field no_such_folder/a.csv", '"no_such_folder/a.csv" cannot be opened', 3),
-    (f"{LOADED} --output no_such_folder/a.csv", '"no_such_folder/a.csv" cannot be opened', 3),
     (f"{LOADED} --output .", '"." cannot be opened', 3),
-    (f"{LOADED} --output a.csv --json ./a.csv", "--output a.csv: the same file as of --json", 2),
     (f"{LOADED} --plot a.nonsense", "--plot a.nonsense: no kind of picture; one of .*.png", 2),
 )
 
@@ -291,10 +271,6 @@ class HelpAndVersion(CommandCase):
             self.assertEqual(sorted(set(re.findall(r"--([a-z][-a-z]+)", found))), NAMES)
             self.assertLessEqual(max(map(len, found.splitlines())), 96)
 
-    def test_options_are_known(self):
-        for name in NAMES:
-            self.assertNotIn("unknown option", self.run_command(f"--{name}")[2])
-
     def test_man_page(self):
         page = man_page()
         self.assertEqual(sorted(set(re.findall(r"\n\.B --([-a-z]+)", page.replace("\\-", "-")))), NAMES)
@@ -354,25 +330,24 @@ class SameFiles(CommandCase):
         Path("within").mkdir()
         for link, target in (("soft.mtx", "alpha.mtx"), ("softer.mtx", "soft.mtx"), ("other.csv", "new.csv")):
             os.symlink(target, link)
-        os.link("alpha.mtx", "hard.mtx")
-        os.link("gap.mtx", "hard_gap.mtx")
+        for link in ("alpha.mtx", "gap.mtx"):
+            os.link(link, f"hard_{link}")
 
     ARGUMENTS = "--alpha alpha.mtx --gap gap.mtx --load 2"
 
     def test_refusals(self):
         contents = {path: path.read_bytes() for path in self.folder.iterdir() if path.is_file()}
-        names = "alpha.mtx ./alpha.mtx within/../alpha.mtx soft.mtx softer.mtx hard.mtx".split()
-        for name in [*names, f"{self.folder}/alpha.mtx"]:
-            for option in ("--output", "--json", "--plot"):
-                refused = f"{option} {re.escape(name)}: the same file as of --alpha"
-                self.assert_refused([*words(self.ARGUMENTS), option, name], refused, 2)
-        for arguments, message in (
-            (f"{self.ARGUMENTS} --output hard_gap.mtx", "hard_gap.mtx: the same file as of --gap"),
-            ("job.txt --output ./job.txt", "job.txt: it is the job file"),
-            (f"{self.ARGUMENTS} --output new.csv --json ./new.csv", "new.csv: the same file as of --json"),
-            (f"{self.ARGUMENTS} --output new.csv --json other.csv", "new.csv: the same file as of --json"),
-        ):
-            self.assert_refused(words(arguments), message, 2)
+        self.assert_refusals(
+            (f"{self.ARGUMENTS} {option} {name}", f"{option} {re.escape(name)}: the same file as of --alpha", 2)
+            for name in f"./alpha.mtx within/../alpha.mtx softer.mtx hard_alpha.mtx {self.folder}/alpha.mtx".split()
+            for option in ("--output", "--json", "--plot")
+        )
+        self.assert_refusals((
+            (f"{self.ARGUMENTS} --output hard_gap.mtx", "hard_gap.mtx: the same file as of --gap", 2),
+            ("job.txt --output ./job.txt", "job.txt: it is the job file", 2),
+            (f"{self.ARGUMENTS} --output new.csv --json ./new.csv", "new.csv: the same file as of --json", 2),
+            (f"{self.ARGUMENTS} --output new.csv --json other.csv", "new.csv: the same file as of --json", 2),
+        ))  # fmt: skip
         self.assert_refused([*words(self.ARGUMENTS), "--output", ""], "--output needs a path", 2)
         self.assertEqual({path: path.read_bytes() for path in contents}, contents)
 
@@ -390,8 +365,7 @@ class SameFiles(CommandCase):
     def test_other_files_are_replaced(self):
         for name in ("other.csv", "new.csv", "within/a.csv", "/dev/null"):
             self.table(*words(self.ARGUMENTS), "--output", name)
-        for name in ("new.csv", "within/a.csv"):
-            self.assertRegex(Path(name).read_text(), "point,force,gap,state\n1, *2\\.")
+            self.assertRegex(Path(name).read_text(), "^$" if "dev" in name else "point,force,gap,state\n1, *2\\.")
         self.assertTrue(Path("other.csv").is_symlink())
 
     def test_names_in_job_files(self):

@@ -20,6 +20,8 @@ COLUMNS = "pressure,load,cells,area,fraction,approach,mean_gap,contact_pressure,
 
 FREE = "--boundary free --load 100 --modulus 115385"
 
+TILTED = "--surface tilted.txt --boundary free"
+
 # The same ball in many ways: arguments, and a file of fields.
 BALLS = (
     (f"--surface ball.txt {FREE} --level none", "map.csv"),
@@ -28,22 +30,13 @@ BALLS = (
     (f"--surface columns.txt {FREE} --height-scale 1e-3 --level mean", ""),
     (f"--surface plain.txt {FREE} --spacing 0.0035 --level mean", ""),
     (f"--surface holes.txt {FREE} --fill --level none", ""),
-    (f"--surface ball.txt {FREE} --level none --threads 3", ""),
     ("job.txt", ""),
-    (
-        "--surface tilted.txt --boundary free --pressure 557.5620043796496 --young 210000.7,210000.7 "
-        "--poisson 0.3,0.3",
-        "",
-    ),
+    (f"{TILTED} --pressure 557.5620043796496 --young 210000.7,210000.7 --poisson 0.3,0.3", ""),
 )
-WAVE = (
-    "--surface wave.txt --level none --modulus 115385 --pressure "
-    "906.2316708361457,1812.4633416722913,5437.390025016874"
-)
+WAVE = f"--surface wave.txt --level none --modulus {E_STAR} --pressure 906.23167083614,1812.4633416722,5437.3900250168"
 
 BALL_1 = "--surface ball.txt --load 1"
 REFUSED = (
-    (f"--surface no_such.sdf {FREE}", '"no_such.sdf" cannot be opened', 3),
     (f"--surface cut.txt --spacing 1 {FREE}", r'"cut.txt", line 2: 3 value\(s\), but the first row has 4', 3),
     (f"--surface holes.txt {FREE}", '"holes.txt", line 3: column 1 has no height.* be filled by --fill', 3),
     (f"--surface plain.txt {FREE}", '"plain.txt" does not say how far apart its points are: give --spacing', 2),
@@ -52,24 +45,14 @@ REFUSED = (
     (f"--surface ball.txt --scale 0 {FREE}", "--scale 0: it has to be > 0", 2),
     (f"--surface ball.txt --scale 1,2 {FREE}", "--scale 1,2: one number is needed", 2),
     (f"--surface ball.txt --height-scale 1e300 {FREE}", "heights or spacings are out of range after --height-scale", 3),
-    (f"--surface plain.txt --spacing 1e-160 {FREE}", "its heights or spacings are out of range", 3),
     ("--surface ball.txt --modulus 1", "with --surface one of --pressure and --load is needed", 2),
     (f"--surface ball.txt {FREE} --pressure 1", "with --surface one of --pressure and --load is needed", 2),
     ("--surface ball.txt --modulus 1 --load 100,", '--load 100,: numbers with commas .* are needed, not "100,"', 2),
-    ("--surface ball.txt --modulus 1 --pressure 5,-1", "--pressure 5,-1: it has to be > 0", 2),
-    ("--surface ball.txt --modulus 1 --pressure 5 --pressure 6", "--pressure is given twice", 2),
     (BALL_1, "with --surface either --modulus, or --young and --poisson", 2),
-    (f"--surface ball.txt {FREE} --young 1", "with --surface either --modulus, or --young and --poisson", 2),
-    (f"{BALL_1} --young 1", "--young and --poisson go together", 2),
     (f"{BALL_1} --young 1,2 --poisson 0.3", "--young and --poisson need one number each, or two each", 2),
-    (f"{BALL_1} --young 1 --poisson 0.6", "poisson = 0.6", 3),
     (f"{BALL_1} --modulus 1 --boundary open", "open: one of periodic, free, periodic-x, periodic-y is needed", 2),
     (f"--surface ball.txt {FREE} --field a.vtu", r"--field a.vtu: a surface is a grid, for ParaView a file \*.vti", 2),
-    (f"--surface ball.txt {FREE} --output ./ball.txt", "--output ./ball.txt: the same file as of --surface", 2),
-    (f"--surface ball.txt --alpha a.mtx {FREE}", "one of --alpha, --stiffness and --surface is needed", 2),
     (f"--surface ball.txt {FREE} --gap gap.mtx", "--gap needs matrices or meshes", 2),
-    (f"--surface ball.txt {FREE} --floats", "--floats needs --stiffness", 2),
-    (f"--surface ball.txt {FREE} --limit 3", "--limit needs --alpha or --contact", 2),
 )
 
 
@@ -116,9 +99,8 @@ class Surfaces(CommandCase):
         for arguments, field in BALLS:
             with self.subTest(arguments):
                 found = self.table(*words(arguments), *(["--field", field] if field else []))
-                ((pressure, load, cells, area, fraction, approach, _, mean, largest, residual, status),) = self.rows(
-                    found, COLUMNS
-                )
+                (row,) = self.rows(found, COLUMNS)
+                pressure, load, cells, area, fraction, approach, _, mean, largest, residual, status = row
                 exact = [LOAD / surface, LOAD, cells * STEP**2, area / surface, LOAD / area]
                 np.testing.assert_allclose([pressure, load, area, fraction, mean], exact, 1e-12)
                 self.assertAlmostEqual(area / (np.pi * hertz.semi_axis_x ** 2), 1.0, delta=0.02)

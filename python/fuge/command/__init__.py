@@ -14,7 +14,7 @@ from fuge.command.errors import UsageError
 from fuge.command.option_table import HELP
 from fuge.command.options import Options, Setting
 from fuge.command.run import Log, Outcome, print_error
-from fuge.command.tables import write_lines, written_error
+from fuge.command.tables import write_lines, written
 from fuge.errors import Error
 
 # The module and the function of each kind of problem, which are imported when they are needed.
@@ -109,10 +109,8 @@ def _draw(path: str, outcome: Outcome) -> None:
         (force,) = (column.values for column in outcome.table.columns if column.name == "force")
         axes.plot(range(1, len(force) + 1), force, drawstyle="steps-mid")
         axes.set(xlabel="point", ylabel="force")
-    try:
+    with written(path):
         figure.savefig(path, dpi=150)
-    except OSError as failure:
-        raise written_error(path, failure) from None
 
 
 def _version_lines() -> list[str]:

@@ -6,7 +6,7 @@ import os
 import stat
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack
 
 from fuge.command.errors import UsageError
 from fuge.command.option_table import INPUTS, RESULTS
@@ -57,9 +57,9 @@ def check_options(given: Options) -> str:
         A result cannot be written where it should.
     """
     kind = _kind(given)
-    missing = _missing(given.has, kind)
-    if missing:
-        raise UsageError(missing)
+    for kinds, is_wrong, reason in _rules(given.has):
+        if kind in kinds and is_wrong:
+            raise UsageError(reason)
     for names, kinds, needed in _NEEDS:
         for name in names.split():
             if given.has(name) and kind not in kinds:
@@ -80,45 +80,31 @@ def _kind(given: Options) -> str:
         raise UsageError("one of --alpha, --stiffness and --surface is needed")
     if is_deck:
         return DECK
-    if given.has("surface"):
-        return SURFACE
     if not is_body:
-        return ALPHA
+        return SURFACE if given.has("surface") else ALPHA
     return MESHES if given.has("mesh") or given.has("pair") else MATRICES
 
 
-def _missing(has: Callable[[str], bool], kind: str) -> str:
-    """Which options of a kind of problem are missing or exclude each other, in words; empty if none."""
+def _rules(has: Callable[[str], bool]) -> Iterator[tuple[set[str], bool, str]]:
+    """Kinds of problems, whether an option is missing or excludes another one, and what is then said."""
     motions = [has("load"), has("approach"), has("modes")].count(True)
-    rules = {
-        ALPHA: {
-            "--gap is needed": not has("gap"),
-            "--modes and --resultant go together": has("modes") != has("resultant"),
-            "one of --load, --approach and --modes is needed": motions != 1,
-            "--motion needs --modes": has("motion") and not has("modes"),
-        },
-        MATRICES: {
-            "--gap is needed": not has("gap"),
-            "--modes needs --alpha": has("modes"),
-            "with --stiffness no more than one of --load and --approach is possible": motions > 1,
-            "--contact, or --mesh and --pair, are needed with --stiffness": not has("contact"),
-        },
-        MESHES: {
-            "--pair needs --mesh, the mesh with the surfaces": not has("mesh"),
-            "--mesh needs --pair, the surfaces in contact": not has("pair"),
-            "--stiffness is needed: at least one body has to be elastic": not has("stiffness"),
-        },
-        DECK: {
-            "--stiffness is needed: the matrix of the structure without its one-way links": not has("stiffness"),
-        },
-        SURFACE: {
-            "with --surface one of --pressure and --load is needed": has("pressure") == has("load"),
-            "with --surface either --modulus, or --young and --poisson, are needed": has("modulus")
-            == (has("young") or has("poisson")),
-            "--young and --poisson go together": has("young") != has("poisson"),
-        },
-    }
-    return next((reason for reason, is_wrong in rules[kind].items() if is_wrong), "")
+    is_young = has("young") or has("poisson")
+    yield {ALPHA, MATRICES}, not has("gap"), "--gap is needed"
+    yield {ALPHA}, has("modes") != has("resultant"), "--modes and --resultant go together"
+    yield {ALPHA}, motions != 1, "one of --load, --approach and --modes is needed"
+    yield {ALPHA}, has("motion") and not has("modes"), "--motion needs --modes"
+    yield {MATRICES}, has("modes"), "--modes needs --alpha"
+    yield {MATRICES}, motions > 1, "with --stiffness no more than one of --load and --approach is possible"
+    yield {MATRICES}, not has("contact"), "--contact, or --mesh and --pair, are needed with --stiffness"
+    yield {MESHES}, not has("mesh"), "--pair needs --mesh, the mesh with the surfaces"
+    yield {MESHES}, not has("pair"), "--mesh needs --pair, the surfaces in contact"
+    needed = "--stiffness is needed: "
+    yield {MESHES}, not has("stiffness"), f"{needed}at least one body has to be elastic"
+    yield {DECK}, not has("stiffness"), f"{needed}the matrix of the structure without its one-way links"
+    surface = "with --surface "
+    yield {SURFACE}, has("pressure") == has("load"), f"{surface}one of --pressure and --load is needed"
+    yield {SURFACE}, has("modulus") == is_young, f"{surface}either --modulus, or --young and --poisson, are needed"
+    yield {SURFACE}, has("young") != has("poisson"), "--young and --poisson go together"
 
 
 # ---- results
@@ -132,8 +118,14 @@ def _check_results(given: Options) -> None:
             for path in _inputs(setting):
                 check_input(given, path, f"the same file as of --{setting.name}")
     results = [setting for setting in given.settings if setting.name in RESULTS and not is_output(setting)]
-    # Only where all exist can their names be compared, so those that are missing are made for a moment.
-    with _prepared([setting.path() for setting in results]):
+    with ExitStack() as made:
+        for path in map(Setting.path, results):
+            is_new = not os.path.exists(path)
+            if is_new or os.path.isfile(path) or os.path.isdir(path):
+                open_file(path, "a").close()
+            if is_new:
+                # Only where all exist can their names be compared. Links stay.
+                made.callback(os.remove, os.path.realpath(path))
         for setting in reversed(results):
             check_input(given, setting.path(), f"the same file as of --{setting.name}", setting)
 
@@ -171,32 +163,8 @@ def check_input(given: Options, path: str, reason: str, own: Setting | None = No
 
 def _same_file(path: str, other: str) -> bool:
     """Whether two paths lead to one file; an empty one is standard output. Devices and pipes are no files."""
-    found, expected = _status(path), _status(other)
-    return found is not None and expected is not None and os.path.samestat(found, expected)
-
-
-def _status(path: str) -> os.stat_result | None:
     try:
-        found = os.stat(path) if path else os.fstat(sys.stdout.fileno())
+        found, expected = (os.stat(name) if name else os.fstat(sys.stdout.fileno()) for name in (path, other))
     except (OSError, ValueError, AttributeError):
-        return None
-    return found if stat.S_ISREG(found.st_mode) else None
-
-
-@contextmanager
-def _prepared(paths: list[str]) -> Iterator[None]:
-    """Files at all paths as long as it lasts; those that were there stay as they are. Errors: FileError."""
-    made = []
-    try:
-        for path in paths:
-            if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
-                continue
-            is_new = not os.path.exists(path)
-            open_file(path, "a").close()
-            if is_new:
-                # The file at the end of the links, which stay.
-                made.append(os.path.realpath(path))
-        yield
-    finally:
-        for path in made:
-            os.remove(path)
+        return False
+    return stat.S_ISREG(found.st_mode) and os.path.samestat(found, expected)

@@ -46,13 +46,16 @@ def solve_deck(given: Options, log: Log) -> Outcome:
 
     def write_field(path: str) -> None:
         if mesh is None:
-            write_lines(path, _field_table(model, cases).lines())
+            write_lines(path, _by_rows(model, "displacement", cases.displacement).lines())
         else:
             mesh.write(path, _node_fields(model, cases, mesh))
 
-    table = _long_table(model, cases) if given.has("long") else _table(model, cases)
+    table = _table(model, cases, given.has("long"))
     table.comments = [line for k in range(len(cases)) for line in _case_comments(model, cases, k)]
-    return Outcome(table, write_field, lambda axes: _draw(cases, axes), _reactions(model, cases, held), failure)
+    reactions = _by_rows(model, "reaction", cases.reaction, held)
+    reactions.columns += _envelope("reaction", cases.reaction)
+    reactions.comments = [f"case {k}: {name}" for k, name in enumerate(cases.names, 1)]
+    return Outcome(table, write_field, lambda axes: _draw(cases, axes), reactions, failure)
 
 
 def _read(given: Options, log: Log) -> _Model:
@@ -83,45 +86,38 @@ def _read(given: Options, log: Log) -> _Model:
 def _solve_cases(model: _Model, given: Options, log: Log) -> tuple[fuge.Cases, NDArray[np.intp]]:
     """All cases, with the reactions at all rows that a case holds; one that fails harms no other."""
     deck, stiffness = model
-    links, loads, names = deck.links(stiffness), deck.loads(stiffness), tuple(deck.case_names)
-    supports = [_held(deck, k, stiffness) for k in range(len(names))]
+    links, loads, names = deck.links(stiffness), deck.loads(stiffness), np.array(deck.case_names, dtype=object)
+    given_supports = (deck.supports(k, stiffness) for k in range(len(names)))
+    supports = [dict(zip(rows.tolist(), moved.tolist())) for rows, moved in given_supports]
     held = np.array(sorted(set().union(*supports)), dtype=np.intp)
     body = fuge.Body(stored(stiffness))
     body.find_rigid_modes()
     body.set_links(links)
-    force, gap = (np.full((len(names), links.count), np.nan) for _ in range(2))
+    shape = len(names), links.count
+    info, message, proof = (np.full(len(names), nothing, dtype=object) for nothing in (_NO_INFO, "", None))
+    state, status = np.zeros(shape, dtype=np.intc), np.zeros(len(names), dtype=np.intc)
+    force, gap = np.full(shape, np.nan), np.full(shape, np.nan)
     displacement, reaction = np.full(loads.shape, np.nan), np.full((len(names), held.size), np.nan)
-    state, status = np.zeros(force.shape, dtype=np.intc), np.zeros(len(names), dtype=np.intc)
-    message, info = [""] * len(names), [_NO_INFO] * len(names)
-    proof: list[fuge.Proof | None] = [None] * len(names)
     for fixed in dict.fromkeys(tuple(sorted(each)) for each in supports):
-        members = [k for k, each in enumerate(supports) if tuple(sorted(each)) == fixed]
+        members = np.array([k for k, each in enumerate(supports) if each.keys() == set(fixed)])
         moved = np.array([[supports[k][row] for row in fixed] for k in members])
         body.fix(np.array(fixed, dtype=np.intc))
         try:
-            found, remarks = _solve_group(body, loads[members], moved, [names[k] for k in members], given, log)
+            found, remarks = _solve_group(body, loads[members], moved, names[members].tolist(), given, log)
         except Error as failure:
-            status[members] = failure.status
-            for k in members:
-                message[k] = _words(failure.message)
+            status[members], message[members] = failure.status, _words(failure.message)
             continue
         force[members], gap[members], state[members] = found.force, found.gap, found.state
         displacement[members] = found.displacement
-        reaction[np.ix_(np.array(members), np.searchsorted(held, fixed))] = found.reaction
+        reaction[np.ix_(members, np.searchsorted(held, fixed))] = found.reaction
         for j, k in enumerate(members):
             info[k], proof[k] = found.info[j], found.proof[j] if found.proof else None
-            status[k], message[k] = _report(found, j, remarks)
+            status[k], message[k] = _report(Status(found.status[j]), found.message[j], proof[k], remarks)
     cases = fuge.Cases(
         force, gap, np.empty((len(names), 0)), state, status, tuple(info), tuple(message), displacement, reaction,
-        names, tuple(deck.link_names), proof=tuple(proof),
+        tuple(names), tuple(deck.link_names), proof=tuple(proof) if any(proof) else (),
     )
     return cases, held
-
-
-def _held(deck: fuge.Deck, case: int, stiffness: fuge.StiffnessFile) -> dict[int, float]:
-    """Rows that a case holds, and their displacements."""
-    rows, displacement = deck.supports(case, stiffness)
-    return dict(zip(rows.tolist(), displacement.tolist()))
 
 
 def _solve_group(
@@ -140,10 +136,11 @@ def _solve_group(
     return found, condensation + idle
 
 
-def _report(found: fuge.Cases, j: int, remarks: list[fuge.Warning]) -> tuple[Status, str]:
+def _report(
+    status: Status, message: str, proof: fuge.Proof | None, remarks: list[fuge.Warning]
+) -> tuple[Status, str]:
     """Status and message of a case: its own, or those of all cases with these supports, or that of its proof."""
-    told = [(Status(found.status[j]), found.message[j]), *((warning.status, warning.message) for warning in remarks)]
-    proof = found.proof[j] if found.proof else None
+    told = [(status, message), *((warning.status, warning.message) for warning in remarks)]
     if proof is not None:
         told.append((Status.DONE if proof.bounded else Status.WARN_NOT_PROVED, proof.message))
     status, message = next((each for each in told if each[0] != Status.DONE), max(told, key=lambda each: bool(each[1])))
@@ -159,43 +156,25 @@ def _words(message: str) -> str:
 # ---- tables
 
 
-def _table(model: _Model, cases: fuge.Cases) -> Table:
-    """A line for each link, columns for each case, and the envelope."""
-    deck = model.deck
+def _table(model: _Model, cases: fuge.Cases, long: bool) -> Table:
+    """A line for each link in each case, or for each link, with columns for each case, and the envelope."""
+    deck, found = model.deck, cases.table()
+    words = found["state"]
+    acts = np.isin(words, ("failed", "limited")) | np.tile(deck.play > 0.0, len(cases))
+    found["state"] = np.where(acts, words, "held")
+    if cases.proof:
+        nothing = np.zeros(len(cases.links), dtype=bool)
+        proved = [nothing if proof is None else proof.proved for proof in cases.proof]
+        found["proved"] = np.where(np.concatenate(proved), "yes", "no")
+    if long:
+        return Table([Column(name, values, 25) for name, values in found.items()])
     columns = [Column("element", deck.link_names), Column("node_a", deck.node_a), Column("node_b", deck.node_b)]
-    for k in range(len(cases)):
-        columns += [replace(column, name=f"{column.name} {k + 1}") for column in _case_columns(model, cases, k)]
+    of_cases = {name: values.reshape(len(cases), -1) for name, values in found.items() if name not in ("case", "link")}
+    columns += [Column(f"{name} {k + 1}", of_cases[name][k], 25) for k in range(len(cases)) for name in of_cases]
     return Table(columns + _envelope("force", cases.force))
 
 
-def _long_table(model: _Model, cases: fuge.Cases) -> Table:
-    """A line for each link in each case."""
-    parts = zip(*(_case_columns(model, cases, k) for k in range(len(cases))))
-    columns = [replace(part[0], values=np.concatenate([column.values for column in part])) for part in parts]
-    names, links = np.repeat(cases.names, len(cases.links)), cases.links * len(cases)
-    return Table([Column("case", names), Column("link", links), *columns])
-
-
-def _case_columns(model: _Model, cases: fuge.Cases, k: int) -> list[Column]:
-    """What the links do in case k."""
-    state, words = cases.state[k], fuge.PointState
-    if cases.status[k] < 0:
-        states = np.full(state.shape, "failed")
-    else:
-        limited = (state == words.LIMITED_LOWER) | (state == words.LIMITED_UPPER)
-        chosen = [limited, ~(model.deck.play > 0.0), state == words.AT_LOWER_STOP, state == words.AT_UPPER_STOP]
-        states = np.select(chosen, ["limited", "held", "contact", "upper"], "open")
-    columns = [Column("force", cases.force[k], 25), Column("gap", cases.gap[k], 25), Column("state", states)]
-    proof, nothing = cases.proof[k], np.full(state.shape, np.nan)
-    if any(cases.proof):
-        force_bound, gap_bound = (nothing, nothing) if proof is None else (proof.force_bound, proof.gap_bound)
-        proved = np.where(nothing == 0.0 if proof is None else proof.proved, "yes", "no")
-        columns += [Column("force_bound", force_bound, 25), Column("gap_bound", gap_bound, 25)]
-        columns.append(Column("proved", proved))
-    return columns
-
-
-def _envelope(name: str, values: Array) -> list[Column]:
+def _envelope(name: str, values: Any) -> list[Column]:
     """The smallest and the largest value of all cases, (cases, ..), and the cases that have them."""
     found = fuge.envelope(values)
     columns = []
@@ -205,13 +184,11 @@ def _envelope(name: str, values: Array) -> list[Column]:
     return columns
 
 
-def _reactions(model: _Model, cases: fuge.Cases, held: NDArray[np.intp]) -> Table:
-    """Forces of the supports on the structure: a line for each row that a case holds."""
-    assert cases.reaction is not None
-    rows = [Column("node", model.stiffness.node[held]), Column("direction", model.stiffness.direction[held])]
-    columns = [Column(f"reaction {k}", row, 25) for k, row in enumerate(cases.reaction, 1)]
-    comments = [f"case {k}: {name}" for k, name in enumerate(cases.names, 1)]
-    return Table(rows + columns + _envelope("reaction", cases.reaction), comments)
+def _by_rows(model: _Model, name: str, values: Any, rows: Any = slice(None)) -> Table:
+    """A line for each of these rows of the matrix, a column for each case."""
+    node, direction = model.stiffness.node[rows], model.stiffness.direction[rows]
+    columns = [Column(f"{name} {k}", of_case, 25) for k, of_case in enumerate(values, 1)]
+    return Table([Column("node", node), Column("direction", direction), *columns])
 
 
 def _case_comments(model: _Model, cases: fuge.Cases, k: int) -> list[str]:
@@ -231,13 +208,6 @@ def _case_comments(model: _Model, cases: fuge.Cases, k: int) -> list[str]:
 
 
 # ---- displacements and pictures
-
-
-def _field_table(model: _Model, cases: fuge.Cases) -> Table:
-    """A line for each row of the matrix, a column for each case."""
-    assert cases.displacement is not None
-    columns = [Column("node", model.stiffness.node), Column("direction", model.stiffness.direction)]
-    return Table(columns + [Column(f"displacement {k}", u, 25) for k, u in enumerate(cases.displacement, 1)])
 
 
 def _drawn_mesh(given: Options) -> fuge.Mesh:

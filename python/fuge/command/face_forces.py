@@ -37,11 +37,13 @@ def pressure_forces(position: NDArray[np.float64], revolution: bool = False) -> 
     """
     nodes, dimensions = position.shape[1:]
     point, weight = _gauss(dimensions, nodes)
-    places, powers = (np.array(found) for found in _FACES[dimensions, nodes])
+    places, powers = (np.array(found, dtype=float) for found in _FACES[dimensions, nodes])
     shapes = np.linalg.inv(_monomials(places, powers))
     value = _monomials(point, powers) @ shapes
-    slope = [_monomials(point, powers, along) @ shapes for along in range(dimensions - 1)]
-    tangent = [np.einsum("gn,fnd->fgd", along, position) for along in slope]
+    tangent = []
+    for step in np.eye(2)[: dimensions - 1]:
+        slope = _monomials(point, np.maximum(powers - step, 0.0)) * (powers @ step) @ shapes
+        tangent.append(np.einsum("gn,fnd->fgd", slope, position))
     if dimensions == 2:
         area = np.stack([tangent[0][..., 1], -tangent[0][..., 0]], axis=-1)
     else:
@@ -64,12 +66,6 @@ def _gauss(dimensions: int, nodes: int) -> tuple[NDArray[np.float64], NDArray[np
     return np.stack([u, v], axis=1), weight
 
 
-def _monomials(
-    point: NDArray[np.float64], powers: NDArray[np.int64], along: int | None = None
-) -> NDArray[np.float64]:
-    """Products of powers of the coordinates of points, shape (points, powers), or their derivatives along one."""
-    factors, lowered = np.ones(len(powers)), powers.copy()
-    if along is not None:
-        factors = powers[:, along].astype(float)
-        lowered[:, along] = np.maximum(powers[:, along] - 1, 0)
-    return np.asarray(factors * np.prod(point[:, None, :].astype(float) ** lowered, axis=2))
+def _monomials(point: NDArray[np.float64], powers: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Products of powers of the coordinates of points, shape (points, powers)."""
+    return np.asarray(np.prod(point[:, None, :] ** powers, axis=2))

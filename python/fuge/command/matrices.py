@@ -13,7 +13,7 @@ from fuge._library import has_sparse
 from fuge.command.errors import CommandError, UsageError
 from fuge.command.options import Options
 from fuge.command.run import Log, Outcome, Report, caught
-from fuge.command.tables import Column, Table, number_text, write_lines
+from fuge.command.tables import Column, Table, long_text, short_text, write_lines
 from fuge.errors import Error, Status
 from fuge.formats.text import LARGEST_LABEL, Reason, label, quoted_path, value
 
@@ -38,8 +38,7 @@ def solve_influence(given: Options, log: Log) -> Outcome:
     gap, operator = _influence(given, log)
     report = Report(log)
     with fuge.Solver(operator, threads=given.threads(), progress=log.progress) as solver:
-        solver.set_gap(gap, _play(given, gap.size))
-        _set_points(given, solver)
+        _set_points(given, solver, gap)
         if given.has("modes"):
             _set_modes(given, solver)
         elif given.has("load"):
@@ -52,15 +51,14 @@ def solve_influence(given: Options, log: Log) -> Outcome:
 
 def solve_body(given: Options, log: Log) -> Outcome:
     """--stiffness and --contact."""
-    body, points = _read_body(given, log)
+    body = _read_body(given, log)
     with caught() as condensation:
         condensed = body.condense()
-    log.say(f"the body is condensed to {points} points")
-    gap = _vector(given.file("gap"), points) + condensed.displacement
+    log.say(f"the body is condensed to {condensed.displacement.size} points")
+    gap = _vector(given.file("gap"), condensed.displacement.size) + condensed.displacement
     report = Report(log)
     with fuge.Solver(condensed.influence, threads=given.threads(), progress=log.progress) as solver:
-        solver.set_gap(gap, _play(given, points))
-        _set_points(given, solver)
+        _set_points(given, solver, gap)
         try:
             _pose_body(given, condensed, solver)
             contact, proof = solve_contact(given, solver, report)
@@ -69,14 +67,14 @@ def solve_body(given: Options, log: Log) -> Outcome:
                 raise
             raise CommandError(_IDLE if "moves no point" in failure.message else _DEPENDENT, failure.status) from None
     report.take_all(condensation)
-    field = Table([])
+    field: list[Column] = []
     if given.has("field"):
         with caught() as recovery:
             displacement = body.recover(contact.force, contact.motion[: condensed.resultant.size])
         report.take_all(recovery)
-        degrees = Column("degree of freedom", range(1, displacement.size + 1))
-        field = Table([degrees, Column("displacement", displacement)])
-    return Outcome(_table(given, contact, proof, report), lambda path: write_lines(path, field.lines()))
+        degrees = range(1, displacement.size + 1)
+        field = [Column("degree of freedom", degrees), Column("displacement", displacement)]
+    return Outcome(_table(given, contact, proof, report), lambda path: write_lines(path, Table(field).lines()))
 
 
 def solve_contact(
@@ -104,7 +102,10 @@ def solve_contact(
 def _influence(given: Options, log: Log) -> tuple[Array, Any]:
     """Gaps, and the influence matrix or, where there is none, an operator without displacements."""
     path = given.file("alpha")
-    if not path or _number(given.first("alpha").value) == 0.0:
+    with suppress(Reason):
+        # 0 in all its forms.
+        path = path if path and value(given.first("alpha").value) else ""
+    if not path:
         if not given.has("compliance"):
             raise UsageError("--alpha 0 needs --compliance, the springs at the points")
         gap = _vector(given.file("gap"))
@@ -119,8 +120,8 @@ def _influence(given: Options, log: Log) -> tuple[Array, Any]:
     return _vector(given.file("gap"), len(alpha)), alpha
 
 
-def _read_body(given: Options, log: Log) -> tuple[fuge.Body, int]:
-    """The body with its supports, loads and contact points, and their number."""
+def _read_body(given: Options, log: Log) -> fuge.Body:
+    """The body with its supports, loads and contact points."""
     stiffness = fuge.read_stiffness(given.file("stiffness"), names_path=given.file("rows") or None)
     degrees = stiffness.shape[0]
     log.say(f"stiffness matrix of {degrees} rows is read")
@@ -133,7 +134,7 @@ def _read_body(given: Options, log: Log) -> tuple[fuge.Body, int]:
         body.fix(*_fixed(given.file("fixed")))
     if given.has("external"):
         body.set_load(_vector(given.file("external"), degrees))
-    return body, len(dof)
+    return body
 
 
 def stored(stiffness: fuge.CompressedColumns) -> Any:
@@ -147,14 +148,11 @@ def _contact(path: str, degrees: int) -> tuple[NDArray[np.intc], Array]:
     points = matrix.shape[0]
     if matrix.shape[1] != degrees or points < 1:
         raise _size_error(path, matrix.shape, f"n x {degrees} is needed")
-    order = np.argsort(matrix.row, kind="stable")
-    row = matrix.row[order]
-    used = np.bincount(row, minlength=points)
-    place = np.arange(row.size) - np.repeat(np.cumsum(used) - used, used)
-    dof = np.full((points, used.max()), -1, dtype=np.intc)
-    normal = np.zeros(dof.shape)
-    dof[row, place] = np.repeat(np.arange(degrees), np.diff(matrix.column))[order]
-    normal[row, place] = matrix.value[order]
+    rows = matrix.tocsc().tocsr()
+    used = np.diff(rows.indptr)
+    taken = np.arange(used.max()) < used[:, None]
+    dof, normal = np.full(taken.shape, -1, dtype=np.intc), np.zeros(taken.shape)
+    dof[taken], normal[taken] = rows.indices, rows.data
     return dof, normal
 
 
@@ -165,7 +163,7 @@ def _fixed(path: str) -> tuple[NDArray[np.intc], Array | None]:
         raise _size_error(path, matrix.shape, "k x 1 or k x 2 is needed")
     named = matrix[:, 0]
     for k in np.flatnonzero((named != np.rint(named)) | (abs(named) > LARGEST_LABEL))[:1]:
-        reason = f"entry ({k + 1}, 1) = {number_text(named[k], 5)} is no degree of freedom"
+        reason = f"entry ({k + 1}, 1) = {short_text(named[k])} is no degree of freedom"
         raise CommandError(f"{quoted_path(path)}: {reason}", Status.ERR_DOF)
     return named.astype(np.intc) - 1, matrix[:, 1] if matrix.shape[1] == 2 else None
 
@@ -186,11 +184,11 @@ def _size_error(path: str, shape: tuple[int, ...], wanted: str) -> Error:
 # ---- points and motions
 
 
-def _set_points(given: Options, solver: fuge.Solver) -> None:
-    """Springs, limits of the forces and excluded points."""
+def _set_points(given: Options, solver: fuge.Solver, gap: Array) -> None:
+    """Gaps, springs, limits of the forces and excluded points."""
+    solver.set_gap(gap, _play(given, gap.size))
     solver.set_compliance(_law(given, "compliance", solver.n))
-    limits = [_infinite(_law(given, name, solver.n)) for name in ("limit", "limit-upper")]
-    solver.set_limits(*limits)
+    solver.set_limits(*(_infinite(_law(given, name, solver.n)) for name in ("limit", "limit-upper")))
     solver.set_excluded(_excluded(given, solver.n))
 
 
@@ -202,14 +200,10 @@ def _law(given: Options, name: str, n: int) -> Array | None:
     """A value for each point, from a file or one for all; None without the option."""
     if not given.has(name):
         return None
-    number = _number(given.first(name).value)
-    return _vector(given.file(name), n) if number is None else np.full(n, number)
-
-
-def _number(text: str) -> float | None:
-    with suppress(Reason):
-        return value(text)
-    return None
+    try:
+        return np.full(n, value(given.first(name).value))
+    except Reason:
+        return _vector(given.file(name), n)
 
 
 def _infinite(values: Array | None) -> Array | None:
@@ -287,16 +281,14 @@ def state_words(
 def _table(given: Options, contact: fuge.Contact, proof: fuge.Proof | None, report: Report) -> Table:
     n = contact.force.size
     comments = report.comments(contact.info.contacts)
-    for k, pair in enumerate(zip(contact.motion, contact.resultant)):
-        motion, resultant = (number_text(size, 16, 24) for size in pair)
-        bound = "" if proof is None else f", bound: {number_text(proof.motion_bound[k], 16, 24)}"
-        comments.append(f"motion {k + 1}: {motion}, resultant: {resultant}{bound}")
+    for k, (motion, resultant) in enumerate(zip(contact.motion, contact.resultant)):
+        bound = "" if proof is None else f", bound: {long_text(proof.motion_bound[k])}"
+        comments.append(f"motion {k + 1}: {long_text(motion)}, resultant: {long_text(resultant)}{bound}")
     words = state_words(contact.force, contact.state, _play(given, n), _excluded(given, n))
-    columns = [Column("point", range(1, n + 1)), Column("force", contact.force), Column("gap", contact.gap)]
-    columns.append(Column("state", words))
+    columns = {"point": np.arange(1, n + 1), "force": contact.force, "gap": contact.gap, "state": words}
     if proof is not None:
-        low, high = (number_text(force, 16, 24) for force in proof.largest_force)
+        low, high = map(long_text, proof.largest_force)
         comments.append(f"largest force: from {low} to {high}")
-        columns += [Column("force_bound", proof.force_bound), Column("gap_bound", proof.gap_bound)]
-        columns.append(Column("proved", np.where(proof.proved, "yes", "no")))
-    return Table(columns, comments)
+        columns.update(force_bound=proof.force_bound, gap_bound=proof.gap_bound)
+        columns["proved"] = np.where(proof.proved, "yes", "no")
+    return Table([Column(name, values) for name, values in columns.items()], comments)

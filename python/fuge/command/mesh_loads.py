@@ -40,16 +40,19 @@ class _Kind(NamedTuple):
     example: str
     line: str
     needed: str
+    # Keywords of input files that other options stand for.
+    skipped: str
 
 
-_SUPPORT = _Kind("BOUNDARY", 2, 4, "hub.BOTTOM:xyz or hub.17:z=0.1", "17,z: a support",
-                 "nodes, an axis and perhaps a displacement are needed, like 17,z,0.1")  # fmt: skip
-_LOAD = _Kind("CLOAD", 3, 3, "hub.TOP:z=-100", "17,z,-100: a load",
-              "nodes, an axis and a force are needed, like 17,z,-100")  # fmt: skip
-
-# Keywords of input files that other options stand for; of loads beside supports.
-_CONTACT = {"CONTACTPAIR", "SURFACEINTERACTION", "SURFACEBEHAVIOR"}
-_LOADS = {"CLOAD", "DLOAD", "DSLOAD"}
+_SUPPORT = _Kind(
+    "BOUNDARY", 2, 4, "hub.BOTTOM:xyz or hub.17:z=0.1", "17,z: a support",
+    "nodes, an axis and perhaps a displacement are needed, like 17,z,0.1",
+    "CLOAD DLOAD DSLOAD CONTACTPAIR SURFACEINTERACTION SURFACEBEHAVIOR",
+)  # fmt: skip
+_LOAD = _Kind(
+    "CLOAD", 3, 3, "hub.TOP:z=-100", "17,z,-100: a load", "nodes, an axis and a force are needed, like 17,z,-100",
+    "BOUNDARY CONTACTPAIR SURFACEINTERACTION SURFACEBEHAVIOR",
+)  # fmt: skip
 
 
 class _Condition(NamedTuple):
@@ -147,7 +150,7 @@ def _press(setting: Setting, model: MeshModel) -> None:
     for count, kind in sorted(set(zip(counts.tolist(), faces.type.tolist()))):
         face = faces.node[(counts == count) & (faces.type == kind), :count]
         dimensions = dimensions_of(kind)
-        force = pressure * pressure_forces(model.position[face][..., :dimensions], is_ring(kind))
+        force = pressure * pressure_forces(model.mesh.position[face][..., :dimensions], is_ring(kind))
         row = model.row[face][..., :dimensions]
         np.add.at(model.load, row[row >= 0], force[row >= 0])
         moves = moves or bool((row >= 0).any())
@@ -158,7 +161,7 @@ def _press(setting: Setting, model: MeshModel) -> None:
 # ---- files
 
 
-def _file(given: Options, setting: Setting, kind: _Kind, model: MeshModel) -> Iterator[_Condition]:
+def _file(given: Options, setting: Setting, kind: _Kind, model: MeshModel) -> list[_Condition]:
     """The lines of FILE, or of BODY=FILE, whose nodes are all of that body."""
     name, equals, _ = setting.value.partition("=")
     named = (f"{body.name}." for body in model.bodies if equals and body.name.upper() == name.upper())
@@ -168,7 +171,7 @@ def _file(given: Options, setting: Setting, kind: _Kind, model: MeshModel) -> It
     conditions = [condition._replace(nodes=body + condition.nodes) for condition in found]
     if not conditions:
         raise FileError(f"{quoted_path(path)} has no line like {kind.line}", Status.ERR_FILE)
-    return iter(conditions)
+    return conditions
 
 
 def _is_heading(cells: Sequence[str]) -> bool:
@@ -189,10 +192,9 @@ def _deck(given: Options, path: str, kind: _Kind) -> Iterator[_Condition]:
     """The lines under *BOUNDARY or *CLOAD of an input file of Abaqus or CalculiX, of one load case."""
     paths: list[str] = []
     step, steps = 0, set[int]()
-    skipped = _CONTACT | ({"BOUNDARY"} if kind is _LOAD else _LOADS)
     for block in read_blocks(path, paths):
         step += block.keyword == "STEP"
-        if block.keyword in skipped:
+        if block.keyword in kind.skipped.split():
             continue
         parameters = parameters_of(block)
         if block.keyword == kind.keyword:
@@ -209,11 +211,8 @@ def _data(refuse: Refuse, items: list[str], kind: _Kind) -> _Condition:
     """Node, direction and force, or node, first and perhaps last direction and displacement."""
     if not kind.least <= len(items) <= kind.most:
         raise refuse(kind.needed)
-    node, first, last, number = items[0], items[1], items[1], "".join(items[3:]) or None
-    if kind is _LOAD:
-        number = items[2]
-    elif items[2:] and items[2]:
-        last = items[2]
+    node, first, third, fourth = [*items, "", ""][:4]
+    last, number = (first, third) if kind is _LOAD else (third or first, fourth or None)
     for word in (first, last):
         if word not in _DIRECTIONS:
             raise refuse(f'"{word}" is no axis: 1 to 6')

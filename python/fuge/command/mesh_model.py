@@ -1,19 +1,23 @@
-"""Bodies with meshes as one model: all nodes and all degrees of freedom, one body after the other, and their names."""
+"""Bodies with meshes, as options name them, as one model: all nodes and all rows, one body after the other."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
-from typing import Callable, NamedTuple, Optional, TypeVar
+import os
+import re
+from collections.abc import Iterator, Sequence
+from typing import Callable, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fuge.errors import Error
-from fuge.formats.text import whole
-from fuge.mesh import Mesh
-from fuge.stiffness_rows import StiffnessFile
+from fuge.command.checks import check_input
+from fuge.command.errors import CommandError, UsageError
+from fuge.command.options import Options, Setting
+from fuge.command.run import Log
+from fuge.errors import Error, Status
+from fuge.formats.stiffness import read_stiffness
+from fuge.formats.text import quoted_path, whole
+from fuge.mesh import join_meshes, read_mesh
 
 AXES = ("x", "y", "z", "about x", "about y", "about z")
 # Names that a message lists.
@@ -23,20 +27,44 @@ Refuse = Callable[[str], Error]
 """Makes the error that an option, or a line of a file, is wrong for a reason."""
 
 _Found = TypeVar("_Found")
+_Part = dict[str, Setting]
 
 
-@dataclass(frozen=True, eq=False)
+class Faces(NamedTuple):
+    """Faces of a body: their nodes in the model, -1 in unused places, and the types of their elements."""
+
+    body: MeshBody
+    node: NDArray[np.intp]
+    type: NDArray[np.str_]
+
+
 class MeshBody:
-    """A body, rigid without a stiffness matrix; `before` of the nodes of the model are those of bodies before it."""
+    """A body with the options of it, rigid without a stiffness matrix; `before` nodes of the model are before its own.
 
-    name: str
-    mesh: Mesh
-    stiffness: Optional[StiffnessFile]
-    before: int
+    Raises
+    ------
+    UsageError
+        Options are missing, or a result would overwrite what the mesh includes.
+    FileError
+        A file cannot be read.
+    """
 
-    @cached_property
-    def _places(self) -> dict[int | None, int]:
-        return {number: node for node, number in enumerate(self.mesh.node.tolist(), self.before)}
+    def __init__(self, given: Options, log: Log, name: str, part: _Part, before: int) -> None:
+        self.name, self.part, self.before = name, part, before
+        self.mesh = read_mesh(part["mesh"].path())
+        for path in self.mesh.paths:
+            check_input(given, path, "the same file as of --mesh or of an *INCLUDE in it")
+        log.say(f"mesh of {name}: {self.mesh.node.size} nodes, {self.mesh.element.size} elements")
+        self.places: dict[int | None, int] = {number: k for k, number in enumerate(self.mesh.node.tolist(), before)}
+        self.stiffness = None
+        if "stiffness" in part:
+            names = part["rows"].path() if "rows" in part else None
+            matrix = part["matrix"].value if "matrix" in part else None
+            self.stiffness = read_stiffness(part["stiffness"].path(), names_path=names, name=matrix)
+            log.say(f"stiffness of {name}: {self.stiffness.shape[0]} rows, {self.stiffness.row.size} entries")
+            return
+        for option in part.keys() & {"rows", "matrix"}:
+            raise part[option].refuse("its body has no --stiffness")
 
     def nodes(self, name: str) -> NDArray[np.intp] | None:
         """The nodes of a set, of a surface, or the one with this number; None: no such."""
@@ -46,7 +74,7 @@ class MeshBody:
             members = np.unique(self.mesh.faces(name))
             return self.before + members[members >= 0].astype(np.intp)
         number = whole(name)
-        return np.array([self._places[number]]) if number in self._places else None
+        return np.array([self.places[number]]) if number in self.places else None
 
     def faces(self, name: str) -> Faces | None:
         """The faces of a surface; None: no such."""
@@ -56,14 +84,6 @@ class MeshBody:
         width = int((faces >= 0).sum(axis=1).max(initial=0))
         node = np.where(faces >= 0, faces + self.before, -1)[:, :width]
         return Faces(self, node, self.mesh.element_types[self.mesh.faces_of_surfaces[name.upper()][0]])
-
-
-class Faces(NamedTuple):
-    """Faces of a body: their nodes in the model, -1 in unused places, and the types of their elements."""
-
-    body: MeshBody
-    node: NDArray[np.intp]
-    type: NDArray[np.str_]
 
 
 def dimensions_of(name: str) -> int:
@@ -82,33 +102,60 @@ class MeshModel:
     Attributes
     ----------
     bodies : list of MeshBody
-    position : ndarray, shape (nodes, 3)
-    number, owner : ndarray of int, shape (nodes,)
-        Number in the file, and index of the body.
+    mesh : Mesh
+        That of all bodies, without sets and surfaces.
+    owner : ndarray of int, shape (nodes,)
+        Index of the body.
     row : ndarray of int, shape (nodes, 6)
         Row of each direction, -1 where the stiffness has none.
     load, displacement, held : ndarray, shape (rows,)
         Forces, displacements of supports, and whether there is one.
     row_owner, row_node, row_direction : ndarray of int, shape (rows,)
         Index of the body, and the name in the file.
+
+    Raises
+    ------
+    UsageError
+        Options of a body are missing or given twice, names of bodies cannot be told apart, or a result would overwrite
+        what a mesh includes.
+    FileError
+        A file cannot be read, or mesh and matrix are not of one body.
     """
 
-    def __init__(self, bodies: Sequence[MeshBody]) -> None:
-        self.bodies = list(bodies)
-        matrices = [(k, body.stiffness) for k, body in enumerate(bodies) if body.stiffness is not None]
-        self.position = np.concatenate([body.mesh.position for body in bodies])
-        self.number = np.concatenate([body.mesh.node for body in bodies])
-        self.owner = np.repeat(np.arange(len(bodies)), [body.mesh.node.size for body in bodies])
+    def __init__(self, given: Options, log: Log) -> None:
+        self.bodies: list[MeshBody] = []
+        before = 0
+        for name, part in _named_parts(given).items():
+            self.bodies.append(MeshBody(given, log, name, part, before))
+            before += self.bodies[-1].mesh.node.size
+        self.mesh = join_meshes([body.mesh for body in self.bodies])
+        self.owner = np.repeat(np.arange(len(self.bodies)), [body.mesh.node.size for body in self.bodies])
+        matrices = [(k, body.stiffness) for k, body in enumerate(self.bodies) if body.stiffness is not None]
         self.row_owner = np.repeat([k for k, _ in matrices], [matrix.shape[0] for _, matrix in matrices])
         self.row_node = np.concatenate([matrix.node for _, matrix in matrices])
         self.row_direction = np.concatenate([matrix.direction for _, matrix in matrices])
-        self.row = np.full((self.number.size, len(AXES)), -1)
         self.load, self.displacement = np.zeros((2, self.row_owner.size))
         self.held = np.zeros(self.row_owner.size, dtype=bool)
+        self.row = np.full((before, len(AXES)), -1)
+        for k, _ in matrices:
+            self._name_rows(k, self.bodies[k])
+
+    def _name_rows(self, k: int, body: MeshBody) -> None:
+        """Find the rows of the nodes of body k; those of nodes that the mesh does not have stay."""
+        rows = np.flatnonzero(self.row_owner == k)
+        node = np.array([body.places.get(number, -1) for number in self.row_node[rows].tolist()], dtype=np.intp)
+        axis = self.row_direction[rows] - 1
+        known = (node >= 0) & (axis >= 0) & (axis < len(AXES))
+        if not known.any():
+            reason = f"has no row of a node of {quoted_path(body.part['mesh'].path())}: they are not of the same body"
+            if not self.row_node[rows].any():
+                reason = "has rows without names: give the node and the direction of each by --rows"
+            raise CommandError(f"{quoted_path(body.part['stiffness'].path())} {reason}", Status.ERR_FILE)
+        self.row[node[known], axis[known]] = rows[known]
 
     def node_name(self, node: int) -> str:
         """A node as options name it."""
-        return f"{self.bodies[self.owner[node]].name}.{self.number[node]}"
+        return f"{self.bodies[self.owner[node]].name}.{self.mesh.node[node]}"
 
     def row_name(self, row: int) -> str:
         """The node and the direction of a row."""
@@ -154,3 +201,39 @@ def _names(bodies: Sequence[MeshBody], what: str) -> str:
         return f"; there are {', '.join(names[:_LISTED])}{', ..' * (len(names) > _LISTED)}"
     card = "*SURFACE, TYPE=ELEMENT" if what == "surface" else "*NSET"
     return f" and no other one: {card} in the mesh makes one"
+
+
+# ---- options
+
+
+def _named_parts(given: Options) -> dict[str, _Part]:
+    """The options of each body by its name, that of --body or of the file of its mesh."""
+    parts: dict[str, _Part] = {}
+    for part in _parts(given):
+        if "mesh" not in part:
+            raise next(iter(part.values())).refuse("its body has no --mesh")
+        base = os.path.basename(part["mesh"].path())
+        name = part["body"].value if "body" in part else base.partition(".")[0] or base
+        if re.search(r"[.:,=\s]", name) or not name:
+            reason = "has a point, colon, comma, equals sign or blank, or no letter: give another one by --body"
+            raise UsageError(f'the name of body "{name}" {reason}')
+        if name.upper() in map(str.upper, parts):
+            raise UsageError(f'two bodies have the name "{name}": give others by --body')
+        parts[name] = part
+    return parts
+
+
+def _parts(given: Options) -> Iterator[_Part]:
+    """The options of each body: --body begins one, and so does a second --mesh or --stiffness."""
+    part: _Part = {}
+    for setting in given.settings:
+        name = setting.name
+        if name not in ("body", "mesh", "stiffness", "rows", "matrix"):
+            continue
+        if part and (name == "body" or (name in part and name in ("mesh", "stiffness"))):
+            yield part
+            part = {}
+        if name in part:
+            raise setting.refuse("its body has one already")
+        part[name] = setting
+    yield part

@@ -62,10 +62,9 @@ def _option(setting: Setting) -> dict[str, Any]:
         return dict([_SWITCHES[setting.name]])
     if setting.name in _NUMBERS:
         least, most, reason = _NUMBERS[setting.name]
-        number = setting.number()
-        if not least <= number <= most:
+        if not least <= setting.number() <= most:
             raise setting.refuse(reason)
-        return {setting.name: number}
+        return {setting.name: setting.number()}
     if setting.value in ("averaged", "opposite"):
         return {"normals": setting.value, "normal": None}
     try:
@@ -81,34 +80,30 @@ def _pair(setting: Setting, options: dict[str, Any], model: MeshModel) -> MeshPa
     words = setting.value.split(":", 1)
     if len(words) < 2 or "" in words:
         raise setting.refuse("two surfaces are needed, like shaft.OUTER:hub.BORE")
-    contact, opposite = (model.find_faces(word, setting.refuse) for word in words)
-    if contact.body.stiffness is None and opposite.body.stiffness is None:
+    faces = model.find_faces(words[0], setting.refuse), model.find_faces(words[1], setting.refuse)
+    if all(each.body.stiffness is None for each in faces):
         raise setting.refuse("both bodies are rigid: --stiffness is needed")
-    for word, faces in zip(words, (contact, opposite)):
-        if len(faces.node) == 0:
+    for word, each in zip(words, faces):
+        if len(each.node) == 0:
             raise setting.refuse(f"surface {word} has no faces")
-    types = {str(name) for faces in (contact, opposite) for name in faces.type}
-    sizes = {dimensions_of(name) for name in types}
+    types = {name for each in faces for name in each.type.tolist()}
+    sizes = set(map(dimensions_of, types))
     if len(sizes) > 1:
         raise setting.refuse("one surface is of elements of a plane, the other one of elements in space")
     dimensions = sizes.pop()
-    normal = options.get("normal")
-    if normal is not None:
-        if len(normal) != dimensions:
+    if options.get("normal") is not None:
+        if len(options["normal"]) != dimensions:
             raise setting.refuse(f"--normals needs one number for each axis, {dimensions} in all")
-        options["normal"] = np.broadcast_to(normal, (model.number.size, dimensions))
-    options["revolution"] = any(is_ring(name) for name in types)
+        options["normal"] = np.broadcast_to(options["normal"], (model.owner.size, dimensions))
+    options["revolution"] = any(map(is_ring, types))
     clearance = options.pop("clearance", 0.0)
-    surfaces = _surface(model, contact, dimensions, setting), _surface(model, opposite, dimensions, setting)
+    node = np.ascontiguousarray(model.mesh.position[:, :dimensions])
+    surfaces = []
+    for each in faces:
+        row = None if each.body.stiffness is None else model.row[:, :dimensions]
+        if row is not None and (row[each.node[each.node >= 0]] < 0).all():
+            reason = "has a row in its stiffness: are they of the same model?"
+            raise setting.refuse(f"no node of the surface of body {each.body.name} {reason}")
+        surfaces.append(Surface(node, each.node, row))
     # Tied surfaces are glued where they are.
-    return MeshPair(setting, (contact, opposite), surfaces, options, 0.0 if "tied" in options else clearance)
-
-
-def _surface(model: MeshModel, faces: Faces, dimensions: int, setting: Setting) -> Surface:
-    node = np.ascontiguousarray(model.position[:, :dimensions])
-    if faces.body.stiffness is None:
-        return Surface(node, faces.node)
-    if (model.row[faces.node[faces.node >= 0], :dimensions] < 0).all():
-        reason = "has a row in its stiffness: are they of the same model?"
-        raise setting.refuse(f"no node of the surface of body {faces.body.name} {reason}")
-    return Surface(node, faces.node, model.row[:, :dimensions])
+    return MeshPair(setting, faces, (surfaces[0], surfaces[1]), options, 0.0 if "tied" in options else clearance)

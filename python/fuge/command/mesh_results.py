@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Sequence
-from typing import Any, NamedTuple, Optional
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +15,9 @@ from fuge.command.mesh_model import MeshModel
 from fuge.command.mesh_pairs import MeshPair
 from fuge.command.options import Options
 from fuge.command.run import Outcome, Report
-from fuge.command.tables import Column, Table, number_text, write_lines
+from fuge.command.tables import Column, Table, long_text, write_lines
 from fuge.contact import Contact
 from fuge.errors import Error
-from fuge.mesh import join_meshes
 
 Array = NDArray[np.float64]
 
@@ -39,9 +38,8 @@ class Points(NamedTuple):
     normal: Array
     area: Array
     gap: Array
-    play: Optional[Array]
+    gap_upper: Array
     unpaired: NDArray[np.intc]
-    excluded: Optional[NDArray[np.bool_]] = None
 
 
 def check_field(given: Options, model: MeshModel) -> None:
@@ -50,45 +48,67 @@ def check_field(given: Options, model: MeshModel) -> None:
     if not _is_mesh_file(path):
         return
     try:
-        join_meshes([body.mesh for body in model.bodies]).write(os.devnull)
+        model.mesh.write(os.devnull)
     except Error as failure:
         raise CommandError(f"--field {path}: {failure.message}", failure.status) from None
 
 
 def outcome(
-    model: MeshModel, pairs: Sequence[MeshPair], points: Points, contact: Contact, displacement: Array, report: Report
+    model: MeshModel,
+    pairs: Sequence[MeshPair],
+    points: Points,
+    excluded: NDArray[np.bool_] | None,
+    contact: Contact,
+    displacement: Array,
+    report: Report,
 ) -> Outcome:
     """The table of the contact points, the fields and the picture; `displacement` is that of all rows."""
     action = contact.force[:, None] * _actions(model, pairs, points)
     comments = report.comments(contact.info.contacts)
     for k, pair in enumerate(pairs):
         comments += _pair_comments(model, k, pair, action[points.pair == k].sum(axis=0), points)
-    place, pressure = model.position[points.node], contact.force / points.area
-    direction = np.pad(points.direction, ((0, 0), (0, 3 - points.direction.shape[1])))
+    place, pressure = model.mesh.position[points.node], contact.force / points.area
+    dimensions = points.direction.shape[1]
+    direction = np.pad(points.direction, ((0, 0), (0, 3 - dimensions)))
     numbers = (*place.T, *direction.T, points.area, contact.force, pressure, contact.gap)
     columns = [
         Column("pair", points.pair + 1),
         Column("body", [model.bodies[k].name for k in model.owner[points.node]]),
-        Column("node", model.number[points.node]),
+        Column("node", model.mesh.node[points.node]),
         *map(Column, "x y z nx ny nz area force pressure gap".split(), numbers),
-        Column("state", state_words(contact.force, contact.state, points.play, points.excluded)),
+        Column("state", state_words(contact.force, contact.state, points.gap_upper, excluded)),
     ]
 
     def write_field(path: str) -> None:
         if not _is_mesh_file(path):
-            write_lines(path, _displacements(model, displacement).lines())
+            rows = Column("node", model.row_node), Column("direction", model.row_direction)
+            owner = Column("body", [model.bodies[k].name for k in model.row_owner])
+            write_lines(path, Table([owner, *rows, Column("displacement", displacement)]).lines())
             return
         tied = np.array(["tied" in pair.options for pair in pairs])[points.pair]
-        values = {
+        fields = {
             "displacement": np.where(model.row[:, :3] >= 0, displacement[model.row[:, :3]], 0.0),
-            "pressure": _at_nodes(model, points, np.where(tied, 0.0, pressure)),
-            "contact_force": _at_nodes(model, points, action),
+            "pressure": np.zeros(model.owner.size),
+            "contact_force": np.zeros((model.owner.size, 3)),
             "body": model.owner + 1.0,
         }
-        join_meshes([body.mesh for body in model.bodies]).write(path, values)
+        np.add.at(fields["pressure"], points.node, np.where(tied, 0.0, pressure))
+        np.add.at(fields["contact_force"], points.node, action)
+        model.mesh.write(path, fields)
 
-    draw = _picture(place, pressure, points.direction.shape[1])
-    return Outcome(Table(columns, comments), write_field=write_field, draw=draw)
+    def draw(axes: Any) -> None:
+        """Pressures over the longest extent of the points, in space as colours over the two longest ones."""
+        first, second = np.argsort(-np.ptp(place, axis=0), kind="stable")[:2]
+        axes.set_xlabel("xyz"[first])
+        if dimensions == 2:
+            axes.plot(place[:, first], pressure, "o")
+            axes.set_ylabel("pressure")
+            return
+        drawn = axes.scatter(place[:, first], place[:, second], c=pressure)
+        axes.set(ylabel="xyz"[second], aspect="equal")
+        axes.figure.colorbar(drawn, label="pressure")
+
+    return Outcome(Table(columns, comments), write_field, draw)
 
 
 def _actions(model: MeshModel, pairs: Sequence[MeshPair], points: Points) -> Array:
@@ -118,11 +138,11 @@ def _actions(model: MeshModel, pairs: Sequence[MeshPair], points: Points) -> Arr
 def _pair_comments(model: MeshModel, k: int, pair: MeshPair, force: Array, points: Points) -> Iterator[str]:
     """What a pair is, the force on its contact body, and the nodes that have no opposite."""
     resultant = [0.0, *force[1:]] if pair.options["revolution"] else force
-    values = ",".join(number_text(value, 16, 24) for value in resultant)
+    values = ",".join(map(long_text, resultant))
     yield f"pair {k + 1}: {pair.source.value}, force on {pair.faces[0].body.name}: {values}"
     if pair.options["revolution"]:
-        yield f"pair {k + 1}, sum of the radial forces, which balance each other: {number_text(force[0], 16, 24)}"
-    lonely = sorted(model.number[points.unpaired[points.unpaired[:, 0] == k, 1]].tolist())
+        yield f"pair {k + 1}, sum of the radial forces, which balance each other: {long_text(force[0])}"
+    lonely = sorted(model.mesh.node[points.unpaired[points.unpaired[:, 0] == k, 1]].tolist())
     for begin in range(0, len(lonely), _NODES_ON_A_LINE):
         nodes = " ".join(map(str, lonely[begin : begin + _NODES_ON_A_LINE]))
         yield f"pair {k + 1}, nodes without an opposite: {nodes}"
@@ -130,34 +150,3 @@ def _pair_comments(model: MeshModel, k: int, pair: MeshPair, force: Array, point
 
 def _is_mesh_file(path: str) -> bool:
     return path.upper().endswith(".VTU")
-
-
-def _at_nodes(model: MeshModel, points: Points, values: Array) -> Array:
-    """Sums of the values of points at all nodes."""
-    total = np.zeros((model.number.size, *values.shape[1:]))
-    np.add.at(total, points.node, values)
-    return total
-
-
-def _displacements(model: MeshModel, displacement: Array) -> Table:
-    """A line for each degree of freedom."""
-    bodies = [model.bodies[k].name for k in model.row_owner]
-    columns = [Column("body", bodies), Column("node", model.row_node), Column("direction", model.row_direction)]
-    return Table([*columns, Column("displacement", displacement)])
-
-
-def _picture(place: Array, pressure: Array, dimensions: int) -> Callable[[Any], None]:
-    """Pressures over the longest extent of the points, in space as colours over the two longest ones."""
-    first, second = np.argsort(-np.ptp(place, axis=0), kind="stable")[:2]
-
-    def draw(axes: Any) -> None:
-        axes.set_xlabel("xyz"[first])
-        if dimensions == 2:
-            axes.plot(place[:, first], pressure, "o")
-            axes.set_ylabel("pressure")
-            return
-        drawn = axes.scatter(place[:, first], place[:, second], c=pressure)
-        axes.set(ylabel="xyz"[second], aspect="equal")
-        axes.figure.colorbar(drawn, label="pressure")
-
-    return draw

@@ -9,14 +9,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import block_diag, tril, triu
+from scipy.sparse import block_diag
 
 from fuge._library import has_sparse
 from fuge.body import Body
-from fuge.columns import CompressedColumns
 from fuge.command.errors import CommandError, UsageError
 from fuge.command.matrices import solve_contact
-from fuge.command.mesh_bodies import read_model
 from fuge.command.mesh_loads import take_conditions
 from fuge.command.mesh_model import MeshModel
 from fuge.command.mesh_pairs import MeshPair, read_pairs
@@ -41,7 +39,7 @@ _NUMBERED = re.compile(r"\b(degree of freedom|nodes?|faces?|pair) (\d+)(?: and (
 
 def solve_meshes(given: Options, log: Log) -> Outcome:
     """--mesh and --pair."""
-    model = read_model(given, log)
+    model = MeshModel(given, log)
     check_field(given, model)
     pairs = read_pairs(given, model)
     for pair in pairs:
@@ -51,16 +49,16 @@ def solve_meshes(given: Options, log: Log) -> Outcome:
     take_conditions(given, model)
     points, pairing = _find_points(model, pairs)
     log.say(f"{points.gap.size} contact points, {len(points.unpaired)} nodes without an opposite")
-    points = points._replace(excluded=_excluded(given, model, points))
+    excluded = _excluded(given, model, points)
     with _named(model) as condensation:
         body = _body(model, points)
         condensed = body.condense()
     log.say(f"{body.degrees} degrees of freedom are condensed, {condensed.resultant.size} rigid motions")
     report = Report(log)
     with Solver(condensed.influence, threads=given.threads(), progress=log.progress) as solver:
-        solver.set_gap(points.gap + condensed.displacement, points.play)
+        solver.set_gap(points.gap + condensed.displacement, points.gap_upper)
         solver.set_modes(condensed.modes, condensed.resultant)
-        solver.set_excluded(points.excluded)
+        solver.set_excluded(excluded)
         try:
             contact, _ = solve_contact(given, solver, report)
         except EquilibriumError as failure:
@@ -73,7 +71,7 @@ def solve_meshes(given: Options, log: Log) -> Outcome:
     largest = abs(displacement).max()
     if largest > 0.0 and not contact.force.any() and (contact.gap - points.gap).min() > _NO_MOTION * largest:
         report.take(Status.WARN_NO_CONTACT, _OPENS)
-    return outcome(model, pairs, points, contact, displacement, report)
+    return outcome(model, pairs, points, excluded, contact, displacement, report)
 
 
 def _find_points(model: MeshModel, pairs: Sequence[MeshPair]) -> tuple[Points, list[Warning]]:
@@ -85,11 +83,10 @@ def _find_points(model: MeshModel, pairs: Sequence[MeshPair]) -> tuple[Points, l
         warned += remarks
     gap = found.gap + np.array([pair.clearance for pair in pairs])[found.pair]
     kept = _moving_points(model, found, gap)
-    kept = kept[np.lexsort((model.number[found.node[kept]], found.pair[kept]))]
-    play = found.gap_upper[kept] if np.isfinite(found.gap_upper[kept]).any() else None
-    names = ("pair", "node", "direction", "dof", "normal", "area")
+    kept = kept[np.lexsort((model.mesh.node[found.node[kept]], found.pair[kept]))]
+    names = "pair node direction dof normal area gap_upper".split()
     chosen: dict[str, Any] = {name: getattr(found, name)[kept] for name in names}
-    return Points(**chosen, gap=gap[kept], play=play, unpaired=found.unpaired), warned
+    return Points(**chosen, gap=gap[kept], unpaired=found.unpaired), warned
 
 
 def _moving_points(model: MeshModel, found: ContactPairs, gap: NDArray[np.float64]) -> NDArray[np.intp]:
@@ -98,7 +95,7 @@ def _moving_points(model: MeshModel, found: ContactPairs, gap: NDArray[np.float6
     used = (found.dof >= 0) & (size > _NOTHING * size.max(axis=1, keepdims=True))
     moves = (used & ~model.held[found.dof]).any(axis=1)
     gap = gap + np.where(found.dof >= 0, found.normal * model.displacement[found.dof], 0.0).sum(axis=1)
-    rounding = _NOTHING * abs(model.position).max()
+    rounding = _NOTHING * abs(model.mesh.position).max()
     for k in np.flatnonzero(~moves & ((gap < -rounding) | (gap > found.gap_upper + rounding)))[:1]:
         reason = f"are held by supports with a gap of {gap[k]:.6g}, beyond a stop"
         remedy = "free or move one of them, or leave the faces there out"
@@ -125,7 +122,7 @@ def _excluded(given: Options, model: MeshModel, points: Points) -> NDArray[np.bo
 
 def _body(model: MeshModel, points: Points) -> Body:
     """All bodies as one, with supports, loads and contact points; motions that supports leave are found."""
-    matrices = [_both_triangles(body.stiffness) for body in model.bodies if body.stiffness is not None]
+    matrices = [body.stiffness.tocsc() for body in model.bodies if body.stiffness is not None]
     stiffness = block_diag(matrices, format="csc")
     body = Body(stiffness if has_sparse() else stiffness.toarray())
     held = np.flatnonzero(model.held)
@@ -134,13 +131,6 @@ def _body(model: MeshModel, points: Points) -> Body:
     body.find_rigid_modes()
     body.set_contact(points.dof, points.normal)
     return body
-
-
-def _both_triangles(stiffness: CompressedColumns) -> Any:
-    """A symmetric matrix of which a file may have one triangle."""
-    matrix = stiffness.tocsc()
-    off = triu(matrix, 1), tril(matrix, -1)
-    return matrix if all(half.count_nonzero() for half in off) else matrix + (off[0] + off[1]).T
 
 
 # ---- messages

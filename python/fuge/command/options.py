@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import os
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from fuge.command.errors import UsageError
@@ -78,19 +78,16 @@ class Options:
             if not word.startswith("-"):
                 self._read_job(word)
                 continue
-            given = ""
-            if needs_value(word):
-                following = next(rest, None)
-                if following is None:
-                    raise UsageError(f"{word} needs a value")
-                given = following
-            self._add(word, given, Setting(word[2:], given, f"{word} {given}".strip()))
+            given = next(rest, None) if needs_value(word) else ""
+            if given is None:
+                raise UsageError(f"{word} needs a value")
+            self._add(word, given)
         if not self.settings:
             raise UsageError("no options are given")
 
     def has(self, name: str) -> bool:
         """Whether the option is given."""
-        return any(setting.name == name for setting in self.settings)
+        return bool(self.all(name))
 
     def all(self, name: str) -> list[Setting]:
         """All settings of an option, in their order."""
@@ -122,42 +119,48 @@ class Options:
 
     def factor(self, name: str, default: float = 1.0) -> float:
         """The one number of an option, above 0; the default without it."""
-        if not self.has(name):
-            return default
-        values = self.positive(name)
+        values = self.positive(name) if self.has(name) else [default]
         if len(values) > 1:
             raise self.first(name).refuse("one number is needed")
         return values[0]
 
     def threads(self) -> int:
         """The value of --threads; 0, all cores, without it."""
-        if not self.has("threads"):
-            return 0
-        setting = self.first("threads")
-        if re.fullmatch(r"\+?\d{1,9}", setting.value, re.ASCII) is None:
-            raise setting.refuse("a number of threads is needed, or 0 for all cores")
-        return int(setting.value)
+        for setting in self.all("threads"):
+            if re.fullmatch(r"\+?\d{1,9}", setting.value, re.ASCII) is None:
+                raise setting.refuse("a number of threads is needed, or 0 for all cores")
+            return int(setting.value)
+        return 0
 
-    def _add(self, word: str, given: str, setting: Setting) -> None:
-        where = setting.source[: -len(f"{word} {given}".strip())]
+    def _add(self, word: str, given: str, where: str = "", folder: str = "") -> None:
         if not is_option(word):
-            raise UsageError(f'{where}unknown option "{word}"{_suggestion(word)}')
-        if self.has(setting.name) and setting.name not in REPEATED:
+            alike = difflib.get_close_matches(word.lstrip("-"), NAMES, 1, _ALIKE)
+            meant = f" (did you mean --{alike[0]}?)" if alike else ""
+            raise UsageError(f'{where}unknown option "{word}"{meant}')
+        if self.has(word[2:]) and word[2:] not in REPEATED:
             raise UsageError(f"{where}{word} is given twice")
-        self.settings.append(setting)
+        self.settings.append(Setting(word[2:], given, f"{where}{word} {given}".strip(), folder))
 
     def _read_job(self, path: str) -> None:
+        """Lines of a name and a value, with comments behind #, or on lines that begin with **."""
         if self.job is not None:
             raise UsageError(f'"{self.job}" and "{path}" are two job files')
         self.job = path
         folder = os.path.join(os.path.dirname(path), "")
         count = len(self.settings)
-        for place, line in clean_lines(path):
-            name, _, given = re.sub("[ =]", "\0", line, count=1).partition("\0")
-            word, given = name if name.startswith("--") else f"--{name}", given.strip()
-            if is_option(word):
-                _check_line(place, word, given, folder)
-            self._add(word, given, Setting(word[2:], given, f"{place}: {word} {given}".strip(), folder))
+        for number, line in enumerate(read_text(path).lines, 1):
+            kept = line.replace("\t", " ").partition("#")[0].strip(" \r")
+            if not kept or kept.startswith("**"):
+                continue
+            name, *rest = re.split("[ =]", kept, maxsplit=1)
+            word, given = name if name.startswith("--") else f"--{name}", "".join(rest).strip()
+            where = f"{Place(path, number)}: "
+            if is_option(word) and needs_value(word) != bool(given):
+                raise UsageError(f"{where}{word} {'needs a value' if needs_value(word) else 'has no value'}")
+            second = _second_option(word, given, folder)
+            if is_option(word) and second:
+                raise UsageError(f'{where}"{second}" begins a second option, but there is one on each line')
+            self._add(word, given, where, folder)
         if len(self.settings) == count:
             raise UsageError(f"{quoted_path(path)} has no options: one on each line is needed")
 
@@ -172,27 +175,6 @@ def needs_value(word: str) -> bool:
     return is_option(word) and word[2:] not in WITHOUT_VALUE
 
 
-def clean_lines(path: str) -> Iterator[tuple[Place, str]]:
-    """Lines of a job file or a table that are neither blank nor comments, without outer blanks; tabs as blanks.
-
-    Comments begin with #, or are lines that begin with **.
-    """
-    file = read_text(path)
-    for number, line in enumerate(file.lines, 1):
-        kept = line.replace("\t", " ").partition("#")[0].strip(" \r")
-        if kept and not kept.startswith("**"):
-            yield Place(file.path, number), kept
-
-
-def _check_line(place: Place, word: str, given: str, folder: str) -> None:
-    """Refuse an option of a job file with no value, or with one too many, and a second option on its line."""
-    if needs_value(word) != bool(given):
-        raise UsageError(f"{place}: {word} {'needs a value' if needs_value(word) else 'has no value'}")
-    second = _second_option(word, given, folder)
-    if second:
-        raise UsageError(f'{place}: "{second}" begins a second option, but there is one on each line')
-
-
 def _second_option(word: str, given: str, folder: str) -> str:
     """The word in the value of an option that begins a second one, or an empty text.
 
@@ -203,13 +185,5 @@ def _second_option(word: str, given: str, folder: str) -> str:
     names = (given, given.partition("=")[2])
     if is_input and any(name and os.path.exists(os.path.join(folder, name)) for name in names):
         return ""
-    for later in given.split()[1:]:
-        begin = later.partition("=")[0]
-        if is_option(begin) or (is_input and begin in NAMES):
-            return begin
-    return ""
-
-
-def _suggestion(word: str) -> str:
-    alike = difflib.get_close_matches(word.lstrip("-"), NAMES, 1, _ALIKE)
-    return f" (did you mean --{alike[0]}?)" if alike else ""
+    begins = [later.partition("=")[0] for later in given.split()[1:]]
+    return next((begin for begin in begins if is_option(begin) or (is_input and begin in NAMES)), "")

@@ -6,8 +6,9 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from importlib import import_module
 from typing import Any
 
 from fuge.command.errors import counted_from_one
@@ -25,7 +26,7 @@ class Log:
     def __init__(self, verbose: bool) -> None:
         self._verbose = verbose
         self._begin = time.monotonic()
-        self._display = None if verbose else _terminal_display()
+        self._display: Any = None if verbose else _terminal_display()
         self.warned = False
 
     def __enter__(self) -> Log:
@@ -59,27 +60,21 @@ class Log:
         print_error(f"fuge: note: {message}")
 
     def _iterated(self, iteration: int, residual: float, contacts: int) -> None:
-        if self._display is not None:
-            self._display.update(f"iteration {iteration}, {contacts} points in contact, residual {residual:.1e}")
+        self._display.update(f"iteration {iteration}, {contacts} points in contact, residual {residual:.1e}")
 
 
 def print_error(line: str) -> None:
     """Print a line on standard error, if there is one."""
-    try:
+    with suppress(OSError, ValueError):
         print(line, file=sys.stderr, flush=True)
-    except (OSError, ValueError):
-        pass
 
 
 def _terminal_display() -> Any:
     """A line of rich on a terminal, or None."""
-    if sys.stderr is None or not sys.stderr.isatty():
-        return None
-    try:
-        from rich.console import Console
-    except ImportError:
-        return None
-    return Console(stderr=True, markup=False).status("fuge")
+    with suppress(ImportError, AttributeError):
+        if sys.stderr.isatty():
+            return import_module("rich.console").Console(stderr=True, markup=False).status("fuge")
+    return None
 
 
 @dataclass

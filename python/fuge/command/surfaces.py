@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -61,8 +62,10 @@ def solve_surface(given: Options, log: Log) -> Outcome:
     words = {option: given.choice(option, choices) for option, choices in _CHOICES.items()}
     e_star = _modulus(given)
     loads = given.positive("pressure" if given.has("pressure") else "load")
-    if given.has("field"):
-        _check_field(given.file("field"))
+    field = given.file("field")
+    if ".vt" in field[-4:] and not field.endswith(".vti"):
+        reason = "a surface is a grid, for ParaView a file *.vti; any other name is that of a table"
+        raise UsageError(f"--field {field}: {reason}")
     surface = _read(given, words["level"])
     ny, nx = surface.height.shape
     log.say(f"{nx} x {ny} heights are read, {surface.file.filled} of them filled")
@@ -79,14 +82,11 @@ def solve_surface(given: Options, log: Log) -> Outcome:
             log.say(f"load {k} of {len(loads)}: {row[2]} cells touch, {contact.info.products} products")
     form = {"residual": (9, 2)}
     columns = [Column(name, values, *form.get(name, ())) for name, values in zip(_COLUMNS, zip(*rows))]
-    comments = outcome_comments(report.status, report.message, report.residual)
-    comments += [f"note: {'; '.join(report.notes)}"] if report.notes else []
-    comments += _surface_comments(given, surface, words, e_star)
-    return Outcome(
-        Table(columns, comments),
-        lambda path: _write_field(path, surface, contact),
-        lambda axes: fuge.plot.map(contact, ax=axes),
-    )
+    notes = [f"note: {'; '.join(report.notes)}"] if report.notes else []
+    head = outcome_comments(report.status, report.message, report.residual) + notes
+    table = Table(columns, head + _surface_comments(given, surface, words, e_star))
+    writer = partial(_write_field, surface=surface, contact=contact)
+    return Outcome(table, writer, lambda axes: fuge.plot.map(contact, ax=axes))
 
 
 def _solve_load(
@@ -159,25 +159,25 @@ def _read(given: Options, level: Any) -> _Surface:
 def _spacing(given: Options, known: tuple[float, float] | None, scale: float) -> tuple[float, float]:
     """The spacings of the file, scaled, or those of the options."""
     path = given.file("surface")
-    if known is None and given.has("spacing"):
-        values = given.positive("spacing")
-        if len(values) > 2:
-            raise given.first("spacing").refuse("one or two lengths are needed, along x and along y")
-        return values[0], values[-1]
-    if known is None:
+    if given.has("spacing") == (known is not None):
         comments = "comments # spacing_x = .. and # spacing_y = .. before its heights"
         remedy = f"give --spacing, one or two lengths, or {comments}"
-        raise CommandError(f'"{path}" does not say how far apart its points are: {remedy}', Status.ERR_OPTION)
-    if given.has("spacing"):
-        own = f"spacings of its own, {short_text(known[0])} and {short_text(known[1])}"
-        reason = f'"{path}" has {own}; leave the option out, --scale changes their unit'
-        raise CommandError(f"--spacing: {reason}", Status.ERR_OPTION)
-    return scale * known[0], scale * known[1]
+        reason = f'"{path}" does not say how far apart its points are: {remedy}'
+        if known is not None:
+            own = f"spacings of its own, {short_text(known[0])} and {short_text(known[1])}"
+            reason = f'--spacing: "{path}" has {own}; leave the option out, --scale changes their unit'
+        raise CommandError(reason, Status.ERR_OPTION)
+    if known is not None:
+        return scale * known[0], scale * known[1]
+    values = given.positive("spacing")
+    if len(values) > 2:
+        raise given.first("spacing").refuse("one or two lengths are needed, along x and along y")
+    return values[0], values[-1]
 
 
 def _remark_slope(surface: _Surface, report: Report) -> None:
     slope = surface.rms_slope
-    if slope > _LARGEST_SLOPE or 0.0 < slope < _LEAST_SLOPE:
+    if slope and not _LEAST_SLOPE <= slope <= _LARGEST_SLOPE:
         wrong = "too steep for a half-space" if slope > _LARGEST_SLOPE else "flatter than surfaces mostly are"
         remedy = "if its heights have another unit than its spacings, give --height-scale"
         report.take(Status.DONE, f"the mean slope of the surface is {short_text(slope)}, {wrong}: {remedy}")
@@ -196,13 +196,6 @@ def _surface_comments(given: Options, surface: _Surface, words: dict[str, str], 
         f"spacings: {spacings}, {rms}, level: {words['level']}",
         f"e_star: {short_text(e_star)}, boundary: {words['boundary']}, element: {words['element']}",
     ]
-
-
-def _check_field(path: str) -> None:
-    """Refuse endings of other files of VTK."""
-    if ".vt" in path[-4:] and not path.endswith(".vti"):
-        reason = "a surface is a grid, for ParaView a file *.vti; any other name is that of a table"
-        raise UsageError(f"--field {path}: {reason}")
 
 
 def _write_field(path: str, surface: _Surface, contact: fuge.Contact) -> None:

@@ -8,6 +8,7 @@ import math
 import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any, Literal, TextIO, Union
@@ -17,8 +18,6 @@ from numpy.typing import NDArray
 
 from fuge.errors import FileError, Status
 from fuge.formats.text import quoted_path
-
-Values = Union[Sequence[Any], NDArray[Any]]
 
 # Lines that are written in one piece.
 _PIECE = 10000
@@ -40,18 +39,27 @@ def short_text(value: float) -> str:
     return number_text(value, 5)
 
 
+def long_text(value: float) -> str:
+    """A number with all its digits, for comments."""
+    return number_text(value, 16, 24)
+
+
 @dataclass
 class Column:
     """A column of a table: whole numbers, words, or numbers with so many digits in so many places; NaN is blank."""
 
     name: str
-    values: Values
+    values: Union[Sequence[Any], NDArray[Any]]
     width: int = 24
     digits: int = 16
 
+    def plain(self) -> list[Any]:
+        """The values as numbers and words of Python."""
+        return self.values.tolist() if isinstance(self.values, np.ndarray) else list(self.values)
+
     def texts(self) -> Iterator[str]:
         """The values as a table has them."""
-        for value in _plain(self.values):
+        for value in self.plain():
             if isinstance(value, float):
                 yield "" if math.isnan(value) else number_text(value, self.digits, self.width)
             else:
@@ -81,18 +89,11 @@ class Table:
         names = [column.name for column in self.columns]
         yield f'{{"comments": {json.dumps(self.comments)},\n"columns": {json.dumps(names)},\n"rows": ['
         before = ""
-        for row in zip(*(map(_json_value, _plain(column.values)) for column in self.columns)):
-            yield before + json.dumps(row)
+        for row in zip(*(column.plain() for column in self.columns)):
+            known = [None if isinstance(value, float) and not math.isfinite(value) else value for value in row]
+            yield before + json.dumps(known)
             before = ","
         yield "]}"
-
-
-def _plain(values: Values) -> Iterable[Any]:
-    return values.tolist() if isinstance(values, np.ndarray) else values
-
-
-def _json_value(value: Any) -> Any:
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _quoted(word: str) -> str:
@@ -101,44 +102,14 @@ def _quoted(word: str) -> str:
 
 
 def write_lines(path: str, lines: Iterable[str]) -> None:
-    """Write lines to a file, which is replaced, or to standard output if the path is empty.
-
-    Raises
-    ------
-    FileError
-        It cannot be opened or written; no part of it is left.
-    """
-    if path:
-        _write_file(path, lines)
-        return
-    try:
-        if sys.stdout is None:
+    """Write lines to a file, which is replaced, or to standard output if the path is empty; FileError."""
+    with written(path), open_file(path, "w") if path else nullcontext(sys.stdout) as file:
+        if file is None:
             raise OSError(errno.EBADF, os.strerror(errno.EBADF))
-        _write_all(sys.stdout, lines)
-    except BrokenPipeError:
-        _drop_output()
-        raise
-    except OSError as failure:
-        _drop_output()
-        raise _failed("standard output", "written", failure) from None
-
-
-def _write_file(path: str, lines: Iterable[str]) -> None:
-    file = open_file(path, "w")
-    try:
-        with file:
-            _write_all(file, lines)
-    except OSError as failure:
-        if os.path.isfile(path):
-            os.remove(os.path.realpath(path))
-        raise written_error(path, failure) from None
-
-
-def _write_all(file: TextIO, lines: Iterable[str]) -> None:
-    rest = iter(lines)
-    while piece := list(islice(rest, _PIECE)):
-        file.write("\n".join(piece) + "\n")
-    file.flush()
+        rest = iter(lines)
+        while piece := list(islice(rest, _PIECE)):
+            file.write("\n".join(piece) + "\n")
+        file.flush()
 
 
 def open_file(path: str, mode: Literal["w", "a"]) -> TextIO:
@@ -146,23 +117,32 @@ def open_file(path: str, mode: Literal["w", "a"]) -> TextIO:
     try:
         return open(path, mode, encoding="utf-8", errors="surrogateescape", newline="\n")
     except (OSError, ValueError) as failure:
-        raise _failed(quoted_path(path), "opened", failure) from None
+        raise _failed(path, "opened", failure) from None
 
 
-def written_error(path: str, failure: Exception) -> FileError:
-    """The error that a file cannot be written."""
-    return _failed(quoted_path(path), "written", failure)
+@contextmanager
+def written(path: str) -> Iterator[None]:
+    """Make a FileError of what goes wrong, and leave no part of the file."""
+    try:
+        yield
+    except FileError:
+        raise
+    except OSError as failure:
+        if not path:
+            _drop_output()
+        elif os.path.isfile(path):
+            os.remove(os.path.realpath(path))
+        if not path and isinstance(failure, BrokenPipeError):
+            raise
+        raise _failed(path, "written", failure) from None
 
 
-def _failed(what: str, verb: str, failure: Exception) -> FileError:
-    cause = getattr(failure, "strerror", None) or failure
-    return FileError(f"{what} cannot be {verb}: {cause}", Status.ERR_FILE)
+def _failed(path: str, verb: str, failure: Exception) -> FileError:
+    what = quoted_path(path) if path else "standard output"
+    return FileError(f"{what} cannot be {verb}: {getattr(failure, 'strerror', None) or failure}", Status.ERR_FILE)
 
 
 def _drop_output() -> None:
     """Let what standard output has not taken go nowhere when Python flushes it at its end."""
-    try:
-        number = sys.stdout.fileno()
-        os.dup2(os.open(os.devnull, os.O_WRONLY), number)
-    except (OSError, ValueError, AttributeError):
-        pass
+    with suppress(OSError, ValueError, AttributeError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
