@@ -2,12 +2,10 @@
 module fuge_halfspace_grid
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_4
-  use fuge_grid_plan, only: fast_length
-  use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: FUGE_MEAN
+  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_rectangle_checks, only: check_area_element, check_area_modulus
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, &
     FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_ERR_WIDTH
   use fuge_wave_mixture, only: wave_mixture
@@ -98,6 +96,7 @@ contains
   end subroutine check_cells
 
   pure subroutine check_options(grid, info)
+    use fuge_rectangle_checks, only: check_area_element, check_area_modulus
     type(halfspace_grid), intent(in) :: grid
     type(fuge_info), intent(inout) :: info
 
@@ -227,6 +226,7 @@ contains
   !> `length`: the cells of the circles that transforms of rows and columns have; where they are not cyclic twice as
   !> many hold the products. Error: FUGE_ERR_MEMORY if they are too many.
   pure subroutine circle_of(grid, length, info)
+    use fuge_grid_plan, only: fast_length
     type(halfspace_grid), intent(in) :: grid
     integer, intent(out) :: length(2)
     type(fuge_info), intent(inout) :: info
