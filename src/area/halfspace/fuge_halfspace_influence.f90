@@ -5,14 +5,10 @@
 !> mean of 1/r over the rectangle (A. E. H. Love 1929; Johnson, section 3.4). The displacement vanishes far away:
 !> there is no datum, and the approach is absolute.
 module fuge_halfspace_influence
-  use fuge_double_double, only: double_double, exact_difference, exact_sum, operator(/)
   use fuge_halfplane_influence, only: FUGE_CENTRE
-  use fuge_halfspace_table, only: fill_halfspace_table
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_rectangle_checks, only: check_area_element, check_area_modulus, check_rectangles
-  use fuge_rectangle_influence, only: mixed_coefficients, new_rectangle_kernel, pair_coefficients, rectangle_kernel, &
-    set_widths, HALFSPACE_FACTOR, PAIRS
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_SIZE
   implicit none
   private
@@ -83,6 +79,7 @@ contains
   !> Cells of one grid have few different coefficients: fill the matrix from a table of them. `done` is false, and
   !> alpha untouched, if the rectangles are no such cells, or too far apart for a table.
   pure subroutine fill_from_grid(cells, e_star, alpha, done)
+    use fuge_halfspace_table, only: fill_halfspace_table
     type(rectangles), intent(in) :: cells
     real(dp), intent(in) :: e_star
     real(dp), intent(inout) :: alpha(:, :)
@@ -181,6 +178,8 @@ contains
 
   !> alpha pair by pair. `stat` as in an allocate statement; alpha is untouched unless it is 0.
   pure subroutine fill_from_pairs(cells, e_star, alpha, stat)
+    use fuge_double_double, only: double_double, operator(/)
+    use fuge_rectangle_influence, only: new_rectangle_kernel, rectangle_kernel, HALFSPACE_FACTOR, PAIRS
     type(rectangles), intent(in) :: cells
     real(dp), intent(in) :: e_star
     real(dp), intent(inout) :: alpha(:, :)
@@ -205,6 +204,7 @@ contains
 
   !> The coefficients of column `j` from row `first` on: the mean over the images. `equal`: all rectangles are.
   pure subroutine fill_part(cells, kernel, equal, first, j, part)
+    use fuge_rectangle_influence, only: rectangle_kernel, set_widths
     type(rectangles), intent(in) :: cells
     type(rectangle_kernel), intent(inout) :: kernel
     logical, intent(in) :: equal
@@ -228,6 +228,8 @@ contains
   !> Add the coefficients of the rectangles from `first` on under rectangle `j`, or under its image `mirrored` (2)
   !> in x = 0 and in y = 0.
   pure subroutine add_image(cells, kernel, equal, first, j, mirrored, total)
+    use fuge_double_double, only: double_double
+    use fuge_rectangle_influence, only: mixed_coefficients, pair_coefficients, rectangle_kernel
     type(rectangles), intent(in) :: cells
     type(rectangle_kernel), intent(inout) :: kernel
     logical, intent(in) :: equal, mirrored(2)
@@ -257,6 +259,7 @@ contains
 
   !> The distance from `b`, or its mirror image, to `a`.
   pure function between(a, b, mirrored) result(distance)
+    use fuge_double_double, only: double_double, exact_difference, exact_sum
     real(dp), intent(in) :: a, b
     logical, intent(in) :: mirrored
     type(double_double) :: distance

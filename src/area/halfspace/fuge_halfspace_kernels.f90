@@ -5,12 +5,9 @@ module fuge_halfspace_kernels
   use fuge_grid_convolution, only: grid_kernel
   use fuge_grid_plan, only: grid_plan
   use fuge_halfspace_grid, only: halfspace_grid
-  use fuge_halfspace_spectra, only: bytes_needed, compute_spectra, grid_values
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_KERNELS
-  use fuge_memory, only: check_memory
   use fuge_single_grid_convolution, only: round_kernel, single_kernel => grid_kernel
-  use fuge_sliced_convolution, only: convolve_in_slices
   use fuge_status, only: fuge_info, FUGE_DONE
   implicit none
   private
@@ -180,6 +177,8 @@ contains
 
   !> Compute the kernels in double precision of an operator that did without so far, if the machine has the memory.
   subroutine compute_later(kernels, grid, plan, status)
+    use fuge_halfspace_spectra, only: bytes_needed
+    use fuge_memory, only: check_memory
     type(halfspace_kernels), intent(inout) :: kernels
     type(halfspace_grid), intent(in) :: grid
     type(grid_plan), intent(in) :: plan
@@ -210,6 +209,7 @@ contains
   end subroutine compute_all
 
   subroutine compute_double(kernels, grid, plan, datum, status)
+    use fuge_halfspace_spectra, only: compute_spectra
     type(halfspace_kernels), intent(inout) :: kernels
     type(halfspace_grid), intent(in) :: grid
     type(grid_plan), intent(in) :: plan
@@ -236,6 +236,8 @@ contains
   !> u = A f on a free surface without a kernel, on the `n` cells of `grid` and `plan`; `status` as for
   !> convolve_in_slices.
   subroutine multiply_in_slices(grid, plan, n, force, displacement, status)
+    use fuge_halfspace_spectra, only: grid_values
+    use fuge_sliced_convolution, only: convolve_in_slices
     type(halfspace_grid), intent(in) :: grid
     type(grid_plan), intent(in) :: plan
     integer, intent(in) :: n

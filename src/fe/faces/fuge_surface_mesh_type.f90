@@ -1,6 +1,5 @@
 !> The surface of a body as a finite element program has it: nodes, faces and degrees of freedom.
 module fuge_surface_mesh_type
-  use fuge_face_geometry, only: bend, face_nodes
   use fuge_face_shapes, only: face_kind
   use fuge_kinds, only: dp
   implicit none
@@ -42,6 +41,7 @@ contains
   !> The positions of the nodes of face `f`, and the normals of a curved surface there if they are known, (3, nodes of a
   !> face, faces).
   pure function get_face(surface, f, normal) result(face)
+    use fuge_face_geometry, only: bend, face_nodes
     type(fuge_surface_mesh), intent(in) :: surface
     integer, intent(in) :: f
     real(dp), intent(in), optional :: normal(:, :, :)

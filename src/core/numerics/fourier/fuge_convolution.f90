@@ -19,7 +19,6 @@ module fuge_convolution
   use fuge_line_plan, only: line_plan
   use fuge_pair_factors, only: pair_factors, soften
   use fuge_spectrum_bounds, only: spectrum_bounds
-  use fuge_split_convolution, only: convolve_split, order_factors, order_odd_factors
   use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
   use fuge_unit_roots, only: fill_roots
   implicit none
@@ -54,6 +53,7 @@ contains
   !>
   !> `spectrum` (0:length/2), divided by the length. `status`: 0, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
   pure subroutine set_cyclic(self, length, spectrum, status)
+    use fuge_split_convolution, only: order_factors
     class(convolution_kernel), intent(inout) :: self
     integer, intent(in) :: length
     real(dp), intent(in) :: spectrum(0:)
@@ -96,6 +96,7 @@ contains
   !> `even` (0:length/2) the numbers 0, 2, .. of the spectrum, `odd` (length/2) the numbers 1, 5, 9, ..;
   !> both divided by 2*length. `status`: 0, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
   pure subroutine set_padded(self, length, even, odd, status)
+    use fuge_split_convolution, only: order_odd_factors
     class(convolution_kernel), intent(inout) :: self
     integer, intent(in) :: length
     real(dp), intent(in) :: even(:), odd(:)
@@ -340,6 +341,7 @@ contains
   !> `softening`. Several threads may use kernel and plan at once. `status`: 0, or with y unchanged
   !> FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_MEMORY.
   subroutine convolve(self, plan, x, y, status, softening)
+    use fuge_split_convolution, only: convolve_split
     class(convolution_kernel), intent(in) :: self
     type(line_plan), intent(in) :: plan
     real(dp), intent(in) :: x(:)
