@@ -137,19 +137,15 @@ contains
   end subroutine copy_numbers
 
   module procedure copy
-    integer :: cells(2)
-
     ! The source may be a bitwise copy of self that shares them.
-    if (.not. (self%products%owns() .and. associated(self%products%object, source%products%object))) then
-      call copy_products(self, products_of(source))
-    end if
-    cells = source%surface%cells
+    if (.not. self%products%has_lent_to(source%products)) call copy_products(self, products_of(source))
     call copy_numbers(self, source)
     call self%drop_coarser()
-    self%surface%cells = 0
-    if (.not. associated(self%products%object)) return
-    self%surface%cells = cells
-    call self%make_room(count_coarser(self%surface))
+    if (associated(self%products%object)) then
+      call self%make_room(count_coarser(self%surface))
+    else
+      self%surface%cells = 0
+    end if
   end procedure copy
 
   !> There are none where memory is short.

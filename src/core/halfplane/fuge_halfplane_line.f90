@@ -2,7 +2,6 @@
 !> that spectra of their influence coefficients are made of.
 module fuge_halfplane_line
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use fuge_circle_split, only: fast_circle
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
   use fuge_elastic_moduli, only: check_e_star
   use fuge_halfplane_influence, only: check_element, mean_log, FUGE_CENTRE, FUGE_MEAN
@@ -72,6 +71,7 @@ contains
   !> `length`: the cells of the circle that a transform of the line has; of a free surface twice as many hold its
   !> products. Error: FUGE_ERR_MEMORY if they are too many.
   pure subroutine circle_of(line, length, info)
+    use fuge_circle_split, only: fast_circle
     type(halfplane_line), intent(in) :: line
     integer, intent(out) :: length
     type(fuge_info), intent(inout) :: info

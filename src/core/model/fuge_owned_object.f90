@@ -18,7 +18,7 @@ module fuge_owned_object
     type(c_ptr), private :: owner = c_null_ptr
   contains
     procedure :: take
-    procedure :: owns
+    procedure :: has_lent_to
     procedure :: move_from
     procedure :: clear
     final :: finish
@@ -45,13 +45,20 @@ contains
     if (c_associated(self%owner)) owns = c_associated(self%owner, c_loc(self%owner))
   end function owns
 
+  !> Is `copy` a bitwise copy of this variable, which refers to the object that this one owns?
+  function has_lent_to(self, copy)
+    class(object_owner), intent(in) :: self, copy
+    logical :: has_lent_to
+
+    has_lent_to = owns(self) .and. associated(copy%object, self%object)
+  end function has_lent_to
+
   !> Take the object of `source`, which has none afterwards; none if `source` does not own it.
   subroutine move_from(self, source)
-    class(object_owner), intent(inout) :: self
-    class(object_owner), intent(inout) :: source
+    class(object_owner), intent(inout) :: self, source
 
     call self%clear()
-    if (.not. source%owns()) return
+    if (.not. owns(source)) return
     call self%take(source%object)
     nullify (source%object)
     source%owner = c_null_ptr
@@ -61,7 +68,7 @@ contains
   subroutine clear(self)
     class(object_owner), intent(inout) :: self
 
-    if (self%owns()) deallocate (self%object)
+    if (owns(self)) deallocate (self%object)
     nullify (self%object)
     self%owner = c_null_ptr
   end subroutine clear
