@@ -3,12 +3,11 @@ module fuge_input_checks
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_point_chunks, only: chunked_pass, CHUNK
   use fuge_status, only: fuge_info, report, FUGE_ERR_NOT_FINITE
   implicit none
   private
 
-  public :: check_finite, find_asymmetry, is_finite_everywhere, is_finite_in_chunks
+  public :: check_finite, find_asymmetry, is_finite_everywhere
 
   !> Refuse NaN and infinity (FUGE_ERR_NOT_FINITE): one value, or the first of an array with its index.
   interface check_finite
@@ -19,13 +18,6 @@ module fuge_input_checks
   integer, parameter :: int64 = selected_int_kind(18)
   !> Edge of the square tiles in which a matrix is compared with its transpose.
   integer, parameter :: TILE = 64
-
-  !> A pass over values. Found: 1 if one of a chunk is not finite.
-  type, extends(chunked_pass) :: finite_pass
-    real(dp), pointer, contiguous :: values(:) => null()
-  contains
-    procedure :: do_chunk => check_chunk
-  end type finite_pass
 
 contains
 
@@ -45,36 +37,6 @@ contains
     end do
     finite = .not. btest(carries, 62)
   end function is_finite_everywhere
-
-  !> As `is_finite_everywhere`, in threads where many values are worth them.
-  function is_finite_in_chunks(values) result(finite)
-    real(dp), intent(in), contiguous :: values(:)
-    logical :: finite
-
-    if (size(values) > CHUNK) then
-      finite = all_chunks_are_finite(values)
-    else
-      finite = is_finite_everywhere(values)
-    end if
-  end function is_finite_in_chunks
-
-  function all_chunks_are_finite(values) result(finite)
-    real(dp), intent(in), contiguous, target :: values(:)
-    logical :: finite
-    type(finite_pass) :: pass
-
-    pass%values => values
-    call pass%run(size(values), 1)
-    finite = .not. pass%largest(1) > 0.0_dp
-  end function all_chunks_are_finite
-
-  !> Chunk `k`, the values `first` .. `last`.
-  subroutine check_chunk(self, k, first, last)
-    class(finite_pass), intent(inout) :: self
-    integer, intent(in) :: k, first, last
-
-    if (.not. is_finite_everywhere(self%values(first:last))) self%found(1, k) = 1.0_dp
-  end subroutine check_chunk
 
   pure subroutine check_value(value, name, info)
     real(dp), intent(in) :: value

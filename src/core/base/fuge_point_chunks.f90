@@ -1,12 +1,13 @@
 !> Passes over points in chunks, which threads share: the same chunks, and sums in the same order, for any number of
 !> threads.
 module fuge_point_chunks
+  use fuge_input_checks, only: is_finite_everywhere
   use fuge_kinds, only: dp
   use fuge_threads, only: run_in_parts, threads_here, work_in_parts
   implicit none
   private
 
-  public :: chunk_count
+  public :: chunk_count, is_finite_in_chunks
 
   !> Points of a chunk: 64 kB of numbers, which waking a thread is worth.
   integer, parameter, public :: CHUNK = 8192
@@ -25,6 +26,13 @@ module fuge_point_chunks
     procedure :: largest
     procedure :: take
   end type chunked_pass
+
+  !> A pass over values. Found: 1 if one of a chunk is not finite.
+  type, extends(chunked_pass) :: finite_pass
+    real(dp), pointer, contiguous :: values(:) => null()
+  contains
+    procedure :: do_chunk => check_chunk
+  end type finite_pass
 
   abstract interface
     !> Do chunk number `k`, the points `first` .. `last`.
@@ -120,5 +128,35 @@ contains
       end do
     end do
   end subroutine take
+
+  !> As `is_finite_everywhere`, in threads where many values are worth them.
+  function is_finite_in_chunks(values) result(finite)
+    real(dp), intent(in), contiguous :: values(:)
+    logical :: finite
+
+    if (size(values) > CHUNK) then
+      finite = all_chunks_are_finite(values)
+    else
+      finite = is_finite_everywhere(values)
+    end if
+  end function is_finite_in_chunks
+
+  function all_chunks_are_finite(values) result(finite)
+    real(dp), intent(in), contiguous, target :: values(:)
+    logical :: finite
+    type(finite_pass) :: pass
+
+    pass%values => values
+    call pass%run(size(values), 1)
+    finite = .not. pass%largest(1) > 0.0_dp
+  end function all_chunks_are_finite
+
+  !> Chunk `k`, the values `first` .. `last`.
+  subroutine check_chunk(self, k, first, last)
+    class(finite_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+
+    if (.not. is_finite_everywhere(self%values(first:last))) self%found(1, k) = 1.0_dp
+  end subroutine check_chunk
 
 end module fuge_point_chunks

@@ -19,7 +19,6 @@ module fuge_adjoint_solution
   use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
-  use fuge_threads, only: thread_team
   implicit none
   private
 
@@ -191,6 +190,7 @@ contains
   !> The gradients that follow from those by gaps and loads, and points at a kink. Errors: FUGE_ERR_MEMORY, those of the
   !> product.
   subroutine set_law_gradients(operator, problem, solution, weights, threads, space, gradients, info)
+    use fuge_threads, only: thread_team
     use fuge_adjoint_weights, only: adjoint_weights
     use fuge_kink_search, only: mark_kinks
     use fuge_law_gradients, only: displacement_is_lost, find_law_gradients, set_displacement

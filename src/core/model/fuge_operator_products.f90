@@ -1,10 +1,11 @@
 !> Products with an operator and with its preconditioner, counted and checked. The iterative
 !> engine and the certificate form theirs here, so that a failure has one message everywhere.
 module fuge_operator_products
-  use fuge_input_checks, only: check_finite, is_finite_in_chunks
+  use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp, sp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
+  use fuge_point_chunks, only: is_finite_in_chunks
   use fuge_point_space, only: point_space
   use fuge_status, only: composed_message, fuge_info, fuge_status_text, report, FUGE_DONE, FUGE_ERR_CALLBACK, &
     FUGE_ERR_OVERFLOW, LOWEST_STATUS

@@ -13,7 +13,7 @@ submodule(fuge_solver_type) fuge_solve_procedure
   use fuge_product_engine, only: product_engine
   use fuge_shared_problem, only: check_shared_problem
   use fuge_status, only: require_memory, FUGE_ERR_CANCELLED
-  use fuge_threads, only: usable_threads
+  use fuge_threads, only: thread_team, usable_threads
   use fuge_unloaded_contact, only: is_unloaded, solve_without_load
   implicit none
 

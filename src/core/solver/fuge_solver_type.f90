@@ -13,7 +13,6 @@ module fuge_solver_type
   use fuge_problem_type, only: fuge_problem, fuge_solution, set_problem
   use fuge_shared_problem, only: differ
   use fuge_status, only: fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_ERR_OPTION, FUGE_ERR_SIZE
-  use fuge_threads, only: thread_team
   implicit none
   private
 
@@ -190,6 +189,7 @@ contains
 
   !> The derivative of the last solution of `engine`, for changes that fit it, by up to `threads` threads.
   subroutine differentiate(engine, operator, gap_change, load_change, threads, change, info, wanted)
+    use fuge_threads, only: thread_team
     class(contact_engine), intent(in) :: engine
     class(fuge_operator), intent(in) :: operator
     real(dp), intent(in) :: gap_change(:), load_change(:)
