@@ -12,7 +12,6 @@ module fuge_adjoint_solution
   use fuge_gradients_type, only: fuge_gradients
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
   use fuge_problem_type, only: check_problem, fuge_problem, fuge_solution
@@ -190,6 +189,7 @@ contains
   !> The gradients that follow from those by gaps and loads, and points at a kink. Errors: FUGE_ERR_MEMORY, those of the
   !> product.
   subroutine set_law_gradients(operator, problem, solution, weights, threads, space, gradients, info)
+    use fuge_operator_products, only: multiply
     use fuge_threads, only: thread_team
     use fuge_adjoint_weights, only: adjoint_weights
     use fuge_kink_search, only: mark_kinks

@@ -7,7 +7,6 @@ module fuge_wanted_pressure
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
-  use fuge_operator_products, only: multiply
   use fuge_operator_type, only: fuge_operator
   use fuge_point_law, only: point_law
   use fuge_point_space, only: point_space
@@ -46,6 +45,7 @@ contains
   !> FUGE_ERR_NOT_FINITE, FUGE_ERR_GAP for a negative clearance, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY, those of the
   !> product.
   subroutine fuge_gap_for_pressure(operator, problem, force, clearance, wanted, info)
+    use fuge_operator_products, only: multiply
     use fuge_problem_modes, only: resultants_of
     class(fuge_operator), intent(in) :: operator
     type(fuge_problem), intent(in) :: problem

@@ -5,16 +5,13 @@ module fuge_compressed_columns
   implicit none
   private
 
-  public :: compress_columns, order_triplets, sum_overflows
+  public :: append, compress_columns, order_triplets, reserve, sum_overflows
 
   !> Entries of a matrix in any order; entries of the same row and column are contributions to one sum.
   type, public :: matrix_triplets
     integer :: count = 0
     integer, allocatable :: row(:), column(:)
     real(dp), allocatable :: value(:)
-  contains
-    procedure :: reserve
-    procedure :: append
   end type matrix_triplets
 
   !> Compressed columns: column j holds the entries column(j) .. column(j + 1) - 1 of `row` and
@@ -28,29 +25,29 @@ contains
 
   !> Allocate memory for `most` entries, less than the largest integer, before the first `append`.
   !> `status` is not zero without memory.
-  pure subroutine reserve(self, most, status)
-    class(matrix_triplets), intent(inout) :: self
+  pure subroutine reserve(triplets, most, status)
+    type(matrix_triplets), intent(inout) :: triplets
     integer(int64), intent(in) :: most
     integer, intent(out) :: status
     integer :: stat
 
-    self%count = 0
+    triplets%count = 0
     status = 1
     if (most >= int(huge(1), int64)) return
-    allocate (self%row(most), self%column(most), self%value(most), stat=stat)
+    allocate (triplets%row(most), triplets%column(most), triplets%value(most), stat=stat)
     if (stat == 0) status = 0
   end subroutine reserve
 
   !> Add an entry to reserved memory.
-  pure subroutine append(self, row, column, value)
-    class(matrix_triplets), intent(inout) :: self
+  pure subroutine append(triplets, row, column, value)
+    type(matrix_triplets), intent(inout) :: triplets
     integer, intent(in) :: row, column
     real(dp), intent(in) :: value
 
-    self%count = self%count + 1
-    self%row(self%count) = row
-    self%column(self%count) = column
-    self%value(self%count) = value
+    triplets%count = triplets%count + 1
+    triplets%row(triplets%count) = row
+    triplets%column(triplets%count) = column
+    triplets%value(triplets%count) = value
   end subroutine append
 
   !> Sort triplets into compressed columns and add entries of the same row and column in the

@@ -1,7 +1,7 @@
 !> A symmetric matrix in compressed columns, of which the upper triangle is kept: checks, products, columns.
 module fuge_symmetric_columns
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge_compressed_columns, only: compress_columns, compressed_columns, matrix_triplets
+  use fuge_compressed_columns, only: append, compress_columns, compressed_columns, matrix_triplets, reserve
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_DOF, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
@@ -135,14 +135,14 @@ contains
     integer :: j, n, overflow, p
 
     n = size(column) - 1
-    call triplets%reserve(count_in_triangle(column, row, upper), stat)
+    call reserve(triplets, count_in_triangle(column, row, upper), stat)
     if (stat /= 0) return
     do j = 1, n
       do p = column(j), column(j + 1) - 1
         if (upper .and. row(p) <= j) then
-          call triplets%append(row(p), j, value(p))
+          call append(triplets, row(p), j, value(p))
         else if (.not. upper .and. row(p) >= j) then
-          call triplets%append(j, row(p), value(p))
+          call append(triplets, j, row(p), value(p))
         end if
       end do
     end do
