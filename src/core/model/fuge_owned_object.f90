@@ -47,10 +47,11 @@ contains
 
   !> Is `copy` a bitwise copy of this variable, which refers to the object that this one owns?
   function has_lent_to(self, copy)
-    class(object_owner), intent(in) :: self, copy
+    class(object_owner), intent(inout) :: self
+    class(object_owner), intent(in) :: copy
     logical :: has_lent_to
 
-    has_lent_to = owns(self) .and. associated(copy%object, self%object)
+    has_lent_to = owns(self) .and. associated(self%object, copy%object)
   end function has_lent_to
 
   !> Take the object of `source`, which has none afterwards; none if `source` does not own it.
