@@ -86,15 +86,11 @@ int fuge_field_halfspace_grid(int nx, int ny, double spacing_x, double spacing_y
 int fuge_field_rings(int n, const double *radius, const double *force, double young,
                      double poisson, fuge_field **field, char *message, size_t len);
 
-/* Under a smooth punch of fuge_solve_smooth_punch, to rounding; along z displacements have the datum
- * of the approach in fuge_smooth_get_report. */
-int fuge_field_smooth(const fuge_smooth *contact, double young, double poisson, int plane_state,
-                      fuge_field **field, char *message, size_t len);
-
-/* Under a round punch of fuge_solve_round_punch or fuge_solve_round_powers, to rounding.  In the tip
- * of a cone zz is -DBL_MAX. */
-int fuge_field_round(const fuge_round *contact, double young, double poisson, fuge_field **field,
-                     char *message, size_t len);
+/* Under a punch of fuge_solve_smooth_punch, fuge_solve_round_punch or fuge_solve_round_powers, to
+ * rounding.  plane_state as above; under a round punch it does not count.  Along z displacements have
+ * the datum of the approach in fuge_punch_get_report; in the tip of a cone zz is -DBL_MAX. */
+int fuge_field_punch(const fuge_punch *contact, double young, double poisson, int plane_state,
+                     fuge_field **field, char *message, size_t len);
 
 /* The same in bodies of layers (layers .. bonded as in fuge_layers.h), in the body that these
  * describe, not in the other one; element is FUGE_CENTRE or FUGE_MEAN.  A line is in plane strain.

@@ -187,6 +187,7 @@ from fuge.programs import (
 from fuge.proof import Proof as Proof
 from fuge.results import write_results as write_results, write_volume as write_volume
 from fuge.smooth import (
+    PunchContact as PunchContact,
     RoundContact as RoundContact,
     SmoothContact as SmoothContact,
     solve_round_powers as solve_round_powers,
