@@ -37,7 +37,7 @@ Solving: gaps and a load, a prescribed approach, or several rigid motions
     hertz_ellipse                           Hertz in closed form: HertzContact
     solve_lcp(M, q), solve_qp(P, q, G, h, A, b)   problems without a contact: LcpSolution, QpSolution
     solve_smooth_punch                      one interval under a smooth profile, without a grid: SmoothContact
-    solve_round_punch, solve_round_powers   the same for punches of revolution: RoundContact
+    solve_round_punch, solve_round_powers   the same for punches of revolution: RoundContact; both are a PunchContact
 
 Bodies of finite elements
 
