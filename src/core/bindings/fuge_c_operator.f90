@@ -5,7 +5,6 @@ module fuge_c_operator
   use fuge_c_types, only: report_to_c, require_count, require_pointer, set_handle, take_handle
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_grid_operator_type, only: grid_operator
-  use fuge_halfplane_fft, only: fuge_halfplane_operator
   use fuge_input_checks, only: check_finite, is_finite_everywhere
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
@@ -44,25 +43,6 @@ contains
     call new_operator(operator, destination, info)
     status = report_to_c(info, message, length)
   end function c_operator_dense
-
-  function c_operator_halfplane(n, spacing, e_star, element, boundary, destination, message, length) &
-    bind(c, name='fuge_operator_halfplane') result(status)
-    integer(c_int), intent(in), value :: n, element, boundary
-    real(c_double), intent(in), value :: spacing, e_star
-    type(c_ptr), intent(in), value :: destination, message
-    integer(c_size_t), intent(in), value :: length
-    integer(c_int) :: status
-    type(fuge_halfplane_operator), allocatable :: surface
-    class(fuge_operator), allocatable :: operator
-    type(fuge_info) :: info
-
-    allocate (surface)
-    call require_pointer(destination, 'op', info)
-    if (.not. info%failed()) call surface%set(int(n), spacing, e_star, info, int(element), int(boundary))
-    call move_alloc(surface, operator)
-    call new_operator(operator, destination, info)
-    status = report_to_c(info, message, length)
-  end function c_operator_halfplane
 
   function c_operator_apply(operator, n, force, displacement, message, length) &
     bind(c, name='fuge_operator_apply') result(status)

@@ -1,6 +1,7 @@
 !> The spectra of a line of cells that ranks share, and products with them.
 module fuge_line_kernel
-  use fuge_halfplane_line, only: halfplane_line, FUGE_PERIODIC
+  use fuge_cell_elements, only: FUGE_PERIODIC
+  use fuge_halfplane_line, only: halfplane_line
   use fuge_kinds, only: dp
   use fuge_line_numbers, only: line_numbers
   use fuge_line_transform, only: line_transform

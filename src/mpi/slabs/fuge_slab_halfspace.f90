@@ -1,7 +1,7 @@
 !> The elastic half-space on a uniform grid of rectangles whose rows the ranks of an MPI communicator share.
 module fuge_slab_halfspace
   use, intrinsic :: iso_c_binding, only: c_loc, c_null_ptr, c_ptr
-  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
+  use fuge_cell_elements, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_grid, only: check_grid, coarsened, complete, count_coarser, halfspace_grid, least_magnitude, &
     periodic, slope_of_waves
   use fuge_kinds, only: dp

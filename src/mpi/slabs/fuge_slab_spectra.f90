@@ -2,7 +2,7 @@
 !> fuge_halfspace_spectra, but a rank computes only some rows of the table, and keeps only its waves.
 module fuge_slab_spectra
   use, intrinsic :: iso_c_binding, only: c_double, c_intptr_t
-  use fuge_halfplane_fft, only: FUGE_FREE
+  use fuge_cell_elements, only: FUGE_FREE
   use fuge_halfspace_grid, only: cyclic, halfspace_grid
   use fuge_halfspace_spectra, only: fill_rows, invert
   use fuge_halfspace_waves, only: fill_periodic_columns

@@ -3,11 +3,12 @@ module fuge_c_pressed_arrays
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr
   use fuge_c_arrays, only: find_array
   use fuge_c_types, only: require_count
-  use fuge_status, only: fuge_info
+  use fuge_number_text, only: text
+  use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE
   implicit none
   private
 
-  public :: find_area, find_line
+  public :: find_area, find_grid, find_line
 
   !> Cells with their forces.
   type, public :: line_arrays
@@ -49,5 +50,23 @@ contains
     call find_array(n, width_y, 'width_y', area%width_y, info)
     call find_array(n, force, 'force', area%force, info)
   end subroutine find_area
+
+  !> The forces of nx x ny cells; FUGE_ERR_SIZE, FUGE_ERR_POINTER.
+  subroutine find_grid(nx, ny, force, forces, info)
+    integer(c_int), intent(in) :: nx, ny
+    type(c_ptr), intent(in) :: force
+    real(c_double), pointer, intent(out) :: forces(:)
+    type(fuge_info), intent(inout) :: info
+
+    nullify (forces)
+    call require_count(nx, 1, 'nx', 'cells along x', info)
+    call require_count(ny, 1, 'ny', 'cells along y', info)
+    if (info%failed()) return
+    if (nx > huge(nx)/ny) then
+      call report(info, FUGE_ERR_SIZE, text(int(nx))//' x '//text(int(ny))//' cells are more than an integer counts')
+    else
+      call find_array(nx*ny, force, 'force', forces, info)
+    end if
+  end subroutine find_grid
 
 end module fuge_c_pressed_arrays

@@ -1,8 +1,8 @@
 !> Checks of rectangles on the surface of a half-space.
 module fuge_rectangle_checks
+  use fuge_cell_elements, only: FUGE_CENTRE, FUGE_MEAN
   use fuge_constants, only: LARGEST_EXPONENT_OF_2, LARGEST_EXPONENT_OF_4
   use fuge_elastic_moduli, only: check_e_star
-  use fuge_halfplane_influence, only: FUGE_CENTRE, FUGE_MEAN
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text

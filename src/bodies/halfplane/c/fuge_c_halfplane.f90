@@ -2,12 +2,14 @@
 module fuge_c_halfplane
   use, intrinsic :: iso_c_binding, only: c_associated, c_int, c_double, c_ptr, c_size_t
   use fuge_c_arrays, only: find_array, give
-  use fuge_c_operator, only: find_matrix
+  use fuge_c_operator, only: find_matrix, new_operator
   use fuge_c_types, only: report_to_c, require_count, require_pointer
   use fuge_cell_grading, only: fuge_graded_cells
   use fuge_edge_refinement, only: fuge_contact_edges, fuge_interval
+  use fuge_halfplane_fft, only: fuge_halfplane_operator
   use fuge_halfplane_influence, only: fuge_halfplane_matrix
   use fuge_number_text, only: text
+  use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, report, FUGE_ERR_SIZE
   implicit none
   private
@@ -32,6 +34,25 @@ contains
       call fuge_halfplane_matrix(centre, breadth, e_star, int(element), matrix, info, symmetric /= 0)
     status = report_to_c(info, message, length)
   end function c_halfplane_matrix
+
+  function c_operator_halfplane(n, spacing, e_star, element, boundary, destination, message, length) &
+    bind(c, name='fuge_operator_halfplane') result(status)
+    integer(c_int), intent(in), value :: n, element, boundary
+    real(c_double), intent(in), value :: spacing, e_star
+    type(c_ptr), intent(in), value :: destination, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_halfplane_operator), allocatable :: surface
+    class(fuge_operator), allocatable :: operator
+    type(fuge_info) :: info
+
+    allocate (surface)
+    call require_pointer(destination, 'op', info)
+    if (.not. info%failed()) call surface%set(int(n), spacing, e_star, info, int(element), int(boundary))
+    call move_alloc(surface, operator)
+    call new_operator(operator, destination, info)
+    status = report_to_c(info, message, length)
+  end function c_operator_halfplane
 
   !> Eleven arguments, as in the header: the interval and its ends, the cells, the message.
   function c_graded_cells(left, right, left_end, right_end, left_beyond, right_beyond, n, x, width, message, length) &

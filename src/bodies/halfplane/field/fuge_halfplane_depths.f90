@@ -4,11 +4,10 @@
 !> the closed forms of `fuge_halfplane_stress`; of a periodic surface the factor of each wave is known
 !> (fuge_halfplane_wave_factors).
 module fuge_halfplane_depths
+  use fuge_cell_elements, only: FUGE_PERIODIC, FUGE_HAT
   use fuge_constants, only: PI
   use fuge_grid_waves, only: grid_waves
-  use fuge_halfplane_fft, only: FUGE_PERIODIC
   use fuge_halfplane_grid_checks, only: check_halfplane_grid
-  use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_halfplane_interior, only: displacement_factors, fuge_halfplane_displacement, fuge_halfplane_stress
   use fuge_halfplane_wave_factors, only: fill_wave_factors, wave_response
   use fuge_kinds, only: dp

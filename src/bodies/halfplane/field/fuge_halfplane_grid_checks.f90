@@ -1,8 +1,7 @@
 !> Checks of a grid of equal cells on a half-plane, and of the depths below it.
 module fuge_halfplane_grid_checks
+  use fuge_cell_elements, only: check_element, FUGE_FREE, FUGE_PERIODIC
   use fuge_constants, only: LARGEST_EXPONENT_OF_2
-  use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
-  use fuge_halfplane_influence, only: check_element
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: text

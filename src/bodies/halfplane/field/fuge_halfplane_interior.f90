@@ -1,8 +1,8 @@
 !> Stresses and displacements inside an elastic half-plane under the forces of its cells.
 module fuge_halfplane_interior
+  use fuge_cell_elements, only: datum_length
   use fuge_constants, only: LARGEST_EXPONENT_OF_4, PI
   use fuge_elastic_moduli, only: fuge_plane_modulus, FUGE_PLANE_STRAIN
-  use fuge_halfplane_influence, only: datum_length
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_pressed_line, only: check_line, pressed_line

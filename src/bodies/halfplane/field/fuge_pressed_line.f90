@@ -5,16 +5,17 @@
 !> nearby and the clusters of all others.
 module fuge_pressed_line
   use fuge_cell_clusters, only: cell_clusters
+  use fuge_cell_elements, only: FUGE_HAT
   use fuge_cell_overlaps, only: check_overlaps
   use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_2, PI
-  use fuge_halfplane_influence, only: check_halfplane, FUGE_HAT
+  use fuge_halfplane_influence, only: check_halfplane
   use fuge_hat_field, only: add_hat_displacements, add_hats, hat_rules
   use fuge_heap_sort, only: heap_sort, reorder
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_OVERFLOW
-  use fuge_strip_field, only: add_strip_displacements, add_strips
   use fuge_stress_checks, only: check_forces
+  use fuge_strip_field, only: add_strip_displacements, add_strips
   implicit none
   private
 

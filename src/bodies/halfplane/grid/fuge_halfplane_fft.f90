@@ -5,11 +5,11 @@
 !> depends on h only through the datum of the logarithm, which scales with h: the
 !> coefficients are pure numbers over e_star.
 module fuge_halfplane_fft
+  use fuge_cell_elements, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_constants, only: PI
   use fuge_convolution, only: convolution_kernel
   use fuge_grid_operator_type, only: grid_operator
-  use fuge_halfplane_line, only: check_line, circle_of, coarsened, count_coarser, halfplane_line, least_magnitude, &
-    FUGE_FREE, FUGE_PERIODIC
+  use fuge_halfplane_line, only: check_line, circle_of, coarsened, count_coarser, halfplane_line, least_magnitude
   use fuge_kinds, only: dp
   use fuge_line_plan, only: line_plan
   use fuge_number_text, only: text
@@ -20,8 +20,6 @@ module fuge_halfplane_fft
   use fuge_wave_mixture, only: wave_mixture
   implicit none
   private
-
-  public :: FUGE_FREE, FUGE_PERIODIC
 
   !> Equal cells side by side on a half-plane: call `set`, then solve. It keeps the coarser grids of its
   !> solves, which takes as much memory again.

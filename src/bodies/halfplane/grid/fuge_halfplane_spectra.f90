@@ -1,8 +1,9 @@
 !> The spectra of a line of cells on a half-plane: those of its influence matrix and of its preconditioner.
 module fuge_halfplane_spectra
+  use fuge_cell_elements, only: FUGE_PERIODIC
   use fuge_compensated_sums, only: compensated_sum
   use fuge_convolution, only: convolution_kernel, transform_padded
-  use fuge_halfplane_line, only: halfplane_line, FUGE_PERIODIC
+  use fuge_halfplane_line, only: halfplane_line
   use fuge_kinds, only: dp
   use fuge_line_numbers, only: line_numbers
   use fuge_line_plan, only: line_plan

@@ -10,8 +10,8 @@
 !> Three more cells tell how far the forces depart from a polynomial: whatever its degree, its differences fall off
 !> with their order for a smooth gap and exact forces, and those that errors of the forces leave do not.
 module fuge_edge_expansion
+  use fuge_cell_elements, only: FUGE_CENTRE, FUGE_HAT
   use fuge_constants, only: PI
-  use fuge_halfplane_influence, only: FUGE_CENTRE, FUGE_HAT
   use fuge_kinds, only: dp
   implicit none
   private

@@ -15,6 +15,7 @@
 !> - FUGE_HAT: displacement at a point by a hat of half-base w, widths w and w, because the hat
 !>   is the convolution of two uniform strips.
 module fuge_halfplane_influence
+  use fuge_cell_elements, only: check_element, datum_length, FUGE_CENTRE, FUGE_MEAN
   use fuge_cell_overlaps, only: check_overlaps
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
   use fuge_elastic_moduli, only: check_e_star
@@ -26,15 +27,7 @@ module fuge_halfplane_influence
   implicit none
   private
 
-  public :: fuge_halfplane_matrix, check_halfplane, check_element, datum_length, mean_log
-
-  !> `element`: uniform pressure f/width on a cell, displacement at its centre; equal widths.
-  integer, parameter, public :: FUGE_CENTRE = 0
-  !> `element`: uniform pressure f/width on a cell, mean displacement of a cell; any widths.
-  integer, parameter, public :: FUGE_MEAN = 1
-  !> `element`: a hat of pressure with peak f/width at x and base 2 width, displacement at x;
-  !> equal widths.
-  integer, parameter, public :: FUGE_HAT = 2
+  public :: fuge_halfplane_matrix, check_halfplane, mean_log
 
   !> Widths with a smaller relative difference count as equal.
   real(dp), parameter :: WIDTH_TOLERANCE = 1.0e-10_dp
@@ -115,19 +108,6 @@ contains
       uniform = abs((x(i) - x(1)) - (i - 1)*(x(n) - x(1))/(n - 1)) <= rounding*max(abs(x(1)), abs(x(n)))
     end do
   end function is_uniform
-
-  !> D: twice the length from the outer edge of the first cell to that of the last one.
-  pure function datum_length(x, width, folded) result(length)
-    real(dp), intent(in) :: x(:), width(:)
-    logical, intent(in) :: folded
-    real(dp) :: length
-
-    if (folded) then
-      length = 4.0_dp*maxval(x + 0.5_dp*width)
-    else
-      length = 2.0_dp*(maxval((x - x(1)) + 0.5_dp*width) - minval((x - x(1)) - 0.5_dp*width))
-    end if
-  end function datum_length
 
   !> The mean of ln for `element`, from a cell of width `loaded` to one of width `observed`.
   pure function cell_mean(distance, observed, loaded, element) result(mean)
@@ -246,15 +226,6 @@ contains
       call check_cells(x, width, element, symmetric, info)
     end if
   end subroutine check_halfplane
-
-  !> Refuse an unknown element (FUGE_ERR_ELEMENT).
-  pure subroutine check_element(element, info)
-    integer, intent(in) :: element
-    type(fuge_info), intent(inout) :: info
-
-    if (all(element /= [FUGE_CENTRE, FUGE_MEAN, FUGE_HAT])) call report(info, FUGE_ERR_ELEMENT, 'element = ' &
-      //text(element)//' is unknown: use FUGE_CENTRE, FUGE_MEAN or FUGE_HAT')
-  end subroutine check_element
 
   !> Refuse widths and centres out of range, and unequal widths where the element needs equal ones.
   pure subroutine check_cells(x, width, element, symmetric, info)

@@ -2,10 +2,12 @@
 !> that spectra of their influence coefficients are made of.
 module fuge_halfplane_line
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_cell_elements, only: FUGE_FREE, FUGE_PERIODIC
+  use fuge_cell_elements, only: check_element, FUGE_CENTRE, FUGE_MEAN
   use fuge_circle_split, only: fast_circle
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
   use fuge_elastic_moduli, only: check_e_star
-  use fuge_halfplane_influence, only: check_element, mean_log, FUGE_CENTRE, FUGE_MEAN
+  use fuge_halfplane_influence, only: mean_log
   use fuge_hurwitz_zeta, only: hurwitz_zeta
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
@@ -16,11 +18,6 @@ module fuge_halfplane_line
   private
 
   public :: check_line, circle_of, coarsened, count_coarser, inverse_eigenvalue, least_magnitude, log_of_distance
-
-  !> `boundary`: beyond the cells the surface is free.
-  integer, parameter, public :: FUGE_FREE = 0
-  !> `boundary`: the cells repeat periodically.
-  integer, parameter, public :: FUGE_PERIODIC = 1
 
   !> Mean over the period of 2/pi |ln(2 sin(pi x))|: 4 Cl_2(pi/3)/pi^2.
   real(dp), parameter :: MEAN_TERM = 0.41132_dp

@@ -1,10 +1,10 @@
 !> The numbers that spectra of a line of cells are made of, of a half-plane in closed form, of another body from few
 !> sums over Gaussians.
 module fuge_line_numbers
+  use fuge_cell_elements, only: FUGE_CENTRE, FUGE_FREE
   use fuge_constants, only: PI
   use fuge_graded_series, only: graded_series
-  use fuge_halfplane_influence, only: FUGE_CENTRE
-  use fuge_halfplane_line, only: halfplane_line, inverse_eigenvalue, log_of_distance, FUGE_FREE
+  use fuge_halfplane_line, only: halfplane_line, inverse_eigenvalue, log_of_distance
   use fuge_kinds, only: dp
   use fuge_mixture_line, only: tabulate_distances, tabulate_waves
   implicit none

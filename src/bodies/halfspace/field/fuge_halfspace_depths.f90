@@ -5,10 +5,10 @@
 !> (fuge_halfspace_wave_terms), and from it the influence on one that is periodic along one direction.
 module fuge_halfspace_depths
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use fuge_cell_elements, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_constants, only: LARGEST_EXPONENT_OF_2
   use fuge_elastic_moduli, only: check_poisson, fuge_plane_modulus, FUGE_PLANE_STRAIN
   use fuge_grid_waves, only: grid_waves
-  use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_grid, only: check_grid, halfspace_grid, periodic, FUGE_PERIODIC_X
   use fuge_halfspace_wave_factors, only: bytes_of_waves, wave_sums, wave_term
   use fuge_halfspace_wave_terms, only: displacement_terms, stress_terms

@@ -85,7 +85,7 @@ contains
 
   !> Is the field known at any place, and not only below the cells of a grid?
   pure function has_places(self)
-    use fuge_halfplane_fft, only: FUGE_FREE
+    use fuge_cell_elements, only: FUGE_FREE
     class(halfspace_loads), intent(in) :: self
     logical :: has_places
 

@@ -2,9 +2,9 @@
 !>
 !> The mean of unit pressure on every n-th cell of a row is a strip of pressure 1/n on a half-plane, in plane strain.
 module fuge_halfspace_mean_rows
+  use fuge_cell_elements, only: FUGE_CENTRE
   use fuge_constants, only: PI
   use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
-  use fuge_halfplane_influence, only: FUGE_CENTRE
   use fuge_halfplane_interior, only: fuge_halfplane_displacement, fuge_halfplane_stress
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, require_memory

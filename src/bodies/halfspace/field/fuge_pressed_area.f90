@@ -1,9 +1,9 @@
 !> The area on which a half-space is pressed: the rectangles that carry a uniform pressure, in a unit of length and a
 !> unit of force of their own.
 module fuge_pressed_area
+  use fuge_cell_elements, only: FUGE_MEAN
   use fuge_compensated_sums, only: difference_rounding
   use fuge_constants, only: LARGEST_EXPONENT, LARGEST_EXPONENT_OF_4
-  use fuge_halfplane_influence, only: FUGE_MEAN
   use fuge_heap_sort, only: reorder
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text

@@ -1,9 +1,9 @@
 !> The elastic half-space on a uniform grid of rectangles, by FFT: A of `fuge_halfspace_matrix`, or of a periodic
 !> surface, in O(n log n) operations and O(n) memory.
 module fuge_halfspace_fft
-  use fuge_grid_plan, only: grid_plan
+  use fuge_cell_elements, only: FUGE_FREE
   use fuge_grid_operator_type, only: grid_operator
-  use fuge_halfplane_fft, only: FUGE_FREE
+  use fuge_grid_plan, only: grid_plan
   use fuge_halfspace_grid, only: check_grid, circle_of, coarsened, complete, computes_later, count_coarser, &
     cyclic, halfspace_grid, is_large, least_magnitude, periodic, slope_of_waves
   use fuge_halfspace_kernels, only: bytes_in_slices, kernel_store, multiply_in_slices

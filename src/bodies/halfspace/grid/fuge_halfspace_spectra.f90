@@ -1,9 +1,9 @@
 !> The spectra of the influence operator of a grid on the half-space and of its preconditioner.
 module fuge_halfspace_spectra
+  use fuge_cell_elements, only: FUGE_FREE
   use fuge_even_spectrum, only: kernel_values, transform_columns, transform_rows
   use fuge_grid_convolution, only: grid_kernel
   use fuge_grid_plan, only: grid_plan
-  use fuge_halfplane_fft, only: FUGE_FREE
   use fuge_halfspace_grid, only: cyclic, halfspace_grid, periodic, FUGE_PERIODIC_X, FUGE_PERIODIC_Y
   use fuge_halfspace_table, only: fill_halfspace_rows
   use fuge_halfspace_waves, only: fill_free_columns, fill_free_rows, fill_periodic_eigenvalues, fill_periodic_kernel, &

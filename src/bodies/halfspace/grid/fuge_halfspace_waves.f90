@@ -14,12 +14,13 @@
 !> instead of waves are wanted, because the surface does not repeat or the grid is only a window of it, takes the
 !> Fourier transform of its sums.
 module fuge_halfspace_waves
+  use fuge_cell_elements, only: FUGE_CENTRE
   use fuge_constants, only: PI
   use fuge_gaussian_cells, only: NEGLIGIBLE
   use fuge_gaussian_products, only: fill_distances, fill_waves, multiply
   use fuge_graded_series, only: graded_series
   use fuge_grid_plan, only: grid_plan
-  use fuge_halfplane_influence, only: mean_log, FUGE_CENTRE
+  use fuge_halfplane_influence, only: mean_log
   use fuge_halfspace_grid, only: halfspace_grid
   use fuge_kinds, only: dp
   use fuge_mixture_line, only: tabulate_distances

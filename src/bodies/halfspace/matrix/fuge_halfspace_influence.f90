@@ -5,8 +5,8 @@
 !> mean of 1/r over the rectangle (A. E. H. Love 1929; Johnson, section 3.4). The displacement vanishes far away:
 !> there is no datum, and the approach is absolute.
 module fuge_halfspace_influence
+  use fuge_cell_elements, only: FUGE_CENTRE
   use fuge_double_double, only: double_double, exact_difference, exact_sum, operator(/)
-  use fuge_halfplane_influence, only: FUGE_CENTRE
   use fuge_halfspace_table, only: fill_halfspace_table
   use fuge_kinds, only: dp
   use fuge_number_text, only: text

@@ -1,7 +1,7 @@
 !> Influence coefficients of a grid of equal rectangles on an elastic half-space, side by side.
 module fuge_halfspace_table
+  use fuge_cell_elements, only: FUGE_CENTRE
   use fuge_double_double, only: double_double, exact_product, operator(/)
-  use fuge_halfplane_influence, only: FUGE_CENTRE
   use fuge_kinds, only: dp
   use fuge_rectangle_influence, only: new_rectangle_kernel, pair_coefficients, rectangle_kernel, set_widths, &
     HALFSPACE_FACTOR, PAIRS

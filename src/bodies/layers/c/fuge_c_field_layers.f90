@@ -4,9 +4,8 @@ module fuge_c_field_layers
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_ptr, c_size_t
   use fuge_c_arrays, only: find_array
   use fuge_c_field, only: give_field
-  use fuge_c_field_loads, only: find_grid
   use fuge_c_layers, only: find_layers
-  use fuge_c_pressed_arrays, only: area_arrays, find_area, find_line, line_arrays
+  use fuge_c_pressed_arrays, only: area_arrays, find_area, find_grid, find_line, line_arrays
   use fuge_c_types, only: report_to_c, require_count, require_pointer
   use fuge_field_of_layers, only: fuge_layered_area_field, fuge_layered_line_field
   use fuge_field_type, only: fuge_field

@@ -1,7 +1,7 @@
 !> A body of layers at the depths that the caller asks for.
 module fuge_layer_checks
+  use fuge_cell_elements, only: FUGE_HAT
   use fuge_depth_mixture, only: uniform_stress, mean_displacement
-  use fuge_halfplane_influence, only: FUGE_HAT
   use fuge_kinds, only: dp
   use fuge_layer_interior, only: find_cut, is_upper_half, layer_at, layer_cut
   use fuge_layer_stack, only: layer_stack

@@ -1,13 +1,13 @@
 !> Stresses and displacements in a body of layers, in plane strain, at depths below the centres of a grid of cells, by
 !> FFT; as fuge_layered_halfspace_depths.
 module fuge_layered_halfplane_depths
+  use fuge_cell_elements, only: FUGE_PERIODIC
   use fuge_depth_mixture, only: depth_mixture, OF_ALONG, OF_DOWN, OF_NN, &
     OF_SLOPE, OF_ZZ
   use fuge_depth_panels, only: depth_panels
   use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
   use fuge_grid_waves, only: grid_waves
   use fuge_halfplane_depths, only: fuge_halfplane_displacement_grid, fuge_halfplane_stress_grid
-  use fuge_halfplane_fft, only: FUGE_PERIODIC
   use fuge_halfplane_grid_checks, only: check_halfplane_grid
   use fuge_halfspace_depths, only: convolve_tables
   use fuge_kinds, only: dp

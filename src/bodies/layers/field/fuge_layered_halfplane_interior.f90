@@ -1,8 +1,8 @@
 !> Stresses and displacements at points of a body of layers in plane strain, under strips of pressure; as
 !> fuge_layered_halfspace_interior.
 module fuge_layered_halfplane_interior
+  use fuge_cell_elements, only: datum_length
   use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
-  use fuge_halfplane_influence, only: datum_length
   use fuge_halfplane_interior, only: check_points, displacement_factors, fuge_halfplane_displacement, &
     fuge_halfplane_stress
   use fuge_kinds, only: dp

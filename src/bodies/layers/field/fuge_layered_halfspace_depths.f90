@@ -4,11 +4,11 @@
 !> change; deeper all of it is a mixture of Gaussians (fuge_depth_mixture), which make products of sums along both
 !> directions, of places or of waves.
 module fuge_layered_halfspace_depths
+  use fuge_cell_elements, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_depth_mixture, only: depth_mixture, OF_ALONG, OF_DIFFERENCE, &
     OF_DOWN, OF_NN, OF_SLOPE, OF_TT, OF_ZZ
   use fuge_depth_panels, only: depth_panels
   use fuge_grid_waves, only: grid_waves
-  use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_depths, only: check_stress_grid, convolve_tables, fuge_halfspace_displacement_grid, &
     fuge_halfspace_stress_grid, DISPLACEMENT_KINDS, STRESS_KINDS
   use fuge_halfspace_grid, only: halfspace_grid, periodic, FUGE_PERIODIC_X

@@ -2,7 +2,8 @@
 !> layers add.
 module fuge_layered_matrices
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use fuge_halfplane_influence, only: datum_length, fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN
+  use fuge_cell_elements, only: datum_length, FUGE_CENTRE, FUGE_MEAN
+  use fuge_halfplane_influence, only: fuge_halfplane_matrix
   use fuge_halfspace_influence, only: copy_from_table, find_grid, fuge_halfspace_matrix
   use fuge_kinds, only: dp
   use fuge_layered_body_type, only: fuge_layered_body

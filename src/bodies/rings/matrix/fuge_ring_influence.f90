@@ -5,8 +5,8 @@
 !> by the mean over both. The latter is symmetric in the two rings, so that the dense engines can use it, with
 !> the resultant of each ring as its force.
 module fuge_ring_influence
+  use fuge_cell_elements, only: FUGE_CENTRE, FUGE_MEAN
   use fuge_constants, only: LARGEST_EXPONENT_OF_2, PI
-  use fuge_halfplane_influence, only: FUGE_CENTRE, FUGE_MEAN
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text, text

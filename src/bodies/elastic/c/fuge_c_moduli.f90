@@ -1,5 +1,5 @@
 !> C bindings, section "two bodies": their elasticity.
-module fuge_c_bodies
+module fuge_c_moduli
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t
   use fuge_c_arrays, only: find_array
   use fuge_c_types, only: report_to_c
@@ -54,4 +54,4 @@ contains
     status = report_to_c(info, message, length)
   end function c_displacement_shares
 
-end module fuge_c_bodies
+end module fuge_c_moduli

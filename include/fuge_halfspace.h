@@ -1,11 +1,12 @@
-/* fuge - areas of contact.  SPDX-License-Identifier: BSD-3-Clause
+/* fuge - rectangles on a half-space, the field below.  SPDX-License-Identifier: BSD-3-Clause
  *
  * Included by fuge.h, whose conventions hold here too. */
-#ifndef FUGE_AREA_H
-#define FUGE_AREA_H
+#ifndef FUGE_HALFSPACE_H
+#define FUGE_HALFSPACE_H
 
 #include <stddef.h>
-#include "fuge_core.h"
+#include "fuge_elastic.h"
+#include "fuge_halfplane.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -67,54 +68,27 @@ int fuge_operator_halfspace(int nx, int ny, double spacing_x, double spacing_y, 
                             int element, int boundary, fuge_operator **op, char *message,
                             size_t len);
 
-/* ---- rings ---------------------------------------------------------------
- *
- * Round bodies pressed along their axis need a line of unknowns only: rings about the axis,
- * for the dense engines. */
+/* ---- fields -------------------------------------------------------------- */
 
-/* Influence matrix of rings side by side.
- *   radius   in   n + 1, increasing, >= 0; ring k lies between radius[k] and radius[k + 1];
- *                 the first one is a disc if radius[0] = 0; length
- *   e_star   in   as in fuge_halfplane_matrix; force per length^2
- *   element  in   FUGE_MEAN: uniform pressure on a ring, mean displacement of a ring
- *   alpha    out  lda x n, lda >= n; displacement per force
- * The force of a ring is its resultant, so the load is the whole load; gaps are means over the
- * rings, weighted by area.  Displacements vanish far away: the approach is absolute.
- * FUGE_ERR_WIDTH: radii that do not increase, a negative one, a ring thinner than 1e-7 of its
- * radius.  FUGE_ERR_GRID for FUGE_CENTRE, whose matrix would not be symmetric.
- * FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_MODULUS, FUGE_ERR_ELEMENT,
- * FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. */
-int fuge_ring_matrix(int n, const double *radius, double e_star, int element, double *alpha,
-                     int lda, char *message, size_t len);
+/* Under rectangles on a half-space, each a uniform pressure.
+ *   n .. width_y, symmetric_x, symmetric_y  as in fuge_halfspace_matrix
+ *   force                                   n; those of 0 cost nothing
+ *   young, poisson                          of the body, not of the pair
+ * Displacements vanish far away.  At z = 0 stresses are limits from inside, on an edge between
+ * different pressures the means of both sides, at a corner those around it; at a corner xy is
+ * infinite if poisson < 0.5 and the pressures around it do not balance: its logarithm is left out.
+ * Rectangles may overlap: their pressures add up. */
+int fuge_field_halfspace(int n, const double *x, const double *y, const double *width_x,
+                         const double *width_y, const double *force, int symmetric_x,
+                         int symmetric_y, double young, double poisson, fuge_field **field,
+                         char *message, size_t len);
 
-/* Displacement of the surface by forces on rings, anywhere.
- *   force         in   n; the resultants; force
- *   place         in   count >= 0 distances from the axis, >= 0; length
- *   displacement  out  count; into the body; length
- * Errors as above; FUGE_ERR_WIDTH also for a negative place. */
-int fuge_ring_displacement(int n, const double *radius, const double *force, double e_star,
-                           int count, const double *place, double *displacement,
-                           char *message, size_t len);
-
-/* ---- Hertz -------------------------------------------------------------- */
-
-/* Contact of two bodies with the initial gap x^2/(2 radius_x) + y^2/(2 radius_y), in closed
- * form: an ellipse with the pressure
- *
- *     p = peak_pressure sqrt(1 - (x/semi_axis_x)^2 - (y/semi_axis_y)^2).
- *
- *   radius_x, radius_y        in   > 0; principal relative radii of curvature,
- *                                  1/R = 1/R_1 + 1/R_2 of the two bodies, any ratio; length
- *   e_star                    in   as in fuge_halfplane_matrix; force per length^2
- *   load                      in   >= 0; force
- *   semi_axis_x, semi_axis_y  out  of the area of contact; length
- *   approach                  out  absolute; length
- *   peak_pressure             out  in the middle; force per length^2
- * Each output may be NULL.  FUGE_ERR_WIDTH for a radius <= 0, FUGE_ERR_MODULUS,
- * FUGE_ERR_NO_EQUILIBRIUM for a load < 0, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
-int fuge_hertz_ellipse(double radius_x, double radius_y, double e_star, double load,
-                       double *semi_axis_x, double *semi_axis_y, double *approach,
-                       double *peak_pressure, char *message, size_t len);
+/* Under nx x ny equal cells side by side: cell i + nx*j has its centre at (spacing_x*i,
+ * spacing_y*j).  boundary as in fuge_operator_halfspace; of periodic ones all holds that is said
+ * above. */
+int fuge_field_halfspace_grid(int nx, int ny, double spacing_x, double spacing_y,
+                              const double *force, int boundary, double young, double poisson,
+                              fuge_field **field, char *message, size_t len);
 
 #ifdef __cplusplus
 }

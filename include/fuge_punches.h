@@ -1,15 +1,35 @@
-/* fuge - smooth punches and round ones, without a grid.  SPDX-License-Identifier: BSD-3-Clause
+/* fuge - Hertz; smooth punches and round ones, without a grid; their fields.  SPDX-License-Identifier: BSD-3-Clause
  *
  * Included by fuge.h, whose conventions hold here too. */
-#ifndef FUGE_PUNCH_H
-#define FUGE_PUNCH_H
+#ifndef FUGE_PUNCHES_H
+#define FUGE_PUNCHES_H
 
 #include <stddef.h>
-#include "fuge_core.h"
+#include "fuge_elastic.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* ---- Hertz -------------------------------------------------------------- */
+
+/* Contact of two bodies with the initial gap x^2/(2 radius_x) + y^2/(2 radius_y), in closed
+ * form: an ellipse with the pressure
+ *
+ *     p = peak_pressure sqrt(1 - (x/semi_axis_x)^2 - (y/semi_axis_y)^2).
+ *
+ *   radius_x, radius_y        in   > 0; principal relative radii of curvature,
+ *                                  1/R = 1/R_1 + 1/R_2 of the two bodies, any ratio; length
+ *   e_star                    in   as in fuge_halfplane_matrix; force per length^2
+ *   load                      in   >= 0; force
+ *   semi_axis_x, semi_axis_y  out  of the area of contact; length
+ *   approach                  out  absolute; length
+ *   peak_pressure             out  in the middle; force per length^2
+ * Each output may be NULL.  FUGE_ERR_WIDTH for a radius <= 0, FUGE_ERR_MODULUS,
+ * FUGE_ERR_NO_EQUILIBRIUM for a load < 0, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
+int fuge_hertz_ellipse(double radius_x, double radius_y, double e_star, double load,
+                       double *semi_axis_x, double *semi_axis_y, double *approach,
+                       double *peak_pressure, char *message, size_t len);
 
 /* ---- smooth punches -----------------------------------------------------
  *
@@ -158,6 +178,18 @@ int fuge_round_get_pressure(const fuge_round *contact, int count, const double *
  * the same array as r or initial_gap. */
 int fuge_round_get_gap(const fuge_round *contact, int count, const double *r,
                        const double *initial_gap, double *gap, char *message, size_t len);
+
+/* ---- fields -------------------------------------------------------------- */
+
+/* Under a smooth punch of fuge_solve_smooth_punch, to rounding; along z displacements have the datum
+ * of the approach in fuge_smooth_get_report. */
+int fuge_field_smooth(const fuge_smooth *contact, double young, double poisson, int plane_state,
+                      fuge_field **field, char *message, size_t len);
+
+/* Under a round punch of fuge_solve_round_punch or fuge_solve_round_powers, to rounding.  In the tip
+ * of a cone zz is -DBL_MAX. */
+int fuge_field_round(const fuge_round *contact, double young, double poisson, fuge_field **field,
+                     char *message, size_t len);
 
 #ifdef __cplusplus
 }

@@ -1,17 +1,55 @@
-/* fuge - stresses and displacements in the bodies.  SPDX-License-Identifier: BSD-3-Clause
+/* fuge - what all elastic bodies share: moduli, cells, fields inside.  SPDX-License-Identifier: BSD-3-Clause
  *
  * Included by fuge.h, whose conventions hold here too. */
-#ifndef FUGE_STRESS_H
-#define FUGE_STRESS_H
+#ifndef FUGE_ELASTIC_H
+#define FUGE_ELASTIC_H
 
 #include <stddef.h>
-#include "fuge_area.h"
 #include "fuge_core.h"
-#include "fuge_punch.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* ---- two bodies --------------------------------------------------------- */
+
+enum {                          /* plane_state, of a body */
+  FUGE_PLANE_STRAIN = 0,        /* long bodies, no strain out of the plane */
+  FUGE_PLANE_STRESS = 1         /* thin bodies, no stress out of the plane */
+};
+
+/* Modulus of one body's surface; INFINITY for a rigid body: E/(1-nu^2) in plane
+ * strain, E in plane stress.
+ *   young    in   E > 0; force per length^2
+ *   poisson  in   nu, above -1 and at most 0.5
+ *   modulus  out  force per length^2
+ * FUGE_ERR_MODULUS for E or nu out of range: with such a nu the shear or the bulk
+ * modulus is not positive.  FUGE_ERR_OPTION for another plane_state. */
+int fuge_plane_modulus(double young, double poisson, int plane_state, double *modulus,
+                       char *message, size_t len);
+
+/* Combined modulus of two bodies, 1/e_star = 1/e1 + 1/e2: the e_star of the half-plane.
+ * One of e1 and e2 may be INFINITY; FUGE_ERR_MODULUS if both are. */
+int fuge_combined_modulus(double e1, double e2, double *e_star, char *message, size_t len);
+
+/* Shares of bodies 1 and 2 in the displacement alpha f: e_star/e1 and e_star/e2, whose
+ * sum is 1. */
+int fuge_displacement_shares(double e1, double e2, double *share1, double *share2,
+                             char *message, size_t len);
+
+/* ---- cells -------------------------------------------------------------- */
+
+enum {                          /* element: what a force and a displacement stand for */
+  FUGE_CENTRE = 0,              /* uniform pressure f/width on a cell, displacement at its centre */
+  FUGE_MEAN = 1,                /* the same pressure, mean displacement of a cell: any widths */
+  FUGE_HAT = 2                  /* pressure with peak f/width at x, falling linearly to zero at
+                                   x - width and x + width, displacement at x */
+};
+
+enum {                          /* boundary: what lies beyond the cells */
+  FUGE_FREE = 0,                /* a surface without pressure */
+  FUGE_PERIODIC = 1             /* the cells repeat periodically, with the period n*spacing */
+};
 
 /* ---- fields --------------------------------------------------------------
  *
@@ -32,92 +70,6 @@ typedef struct fuge_field fuge_field;
 
 /* Free and set *field to NULL; NULL and *field == NULL are fine. */
 void fuge_field_free(fuge_field **field);
-
-/* Under cells on a half-plane.
- *   n, x, width, element, symmetric  as in fuge_halfplane_matrix; FUGE_CENTRE and FUGE_MEAN are
- *                                    strips of pressure force/width, FUGE_HAT hats with the peak
- *                                    force/width
- *   force                            n; per unit depth, compression positive, of any sign: those
- *                                    of fuge_get_force.  Cells without force cost nothing
- *   young, poisson, plane_state      of the body, as in fuge_plane_modulus; a rigid one (young
- *                                    INFINITY) does not move
- * Along z displacements have the datum of fuge_halfplane_matrix; a line load moves points straight
- * below it along z only.  At z = 0 stresses are those of the surface, at an end of a strip their
- * means from both sides, although xz straight below it tends to pressure/pi or, at the right end, to
- * -pressure/pi. */
-int fuge_field_halfplane(int n, const double *x, const double *width, const double *force,
-                         int element, int symmetric, double young, double poisson,
-                         int plane_state, fuge_field **field, char *message, size_t len);
-
-/* Under n equal cells side by side, of which the first one has its centre at x = 0.
- *   spacing            > 0; width of a cell, length
- *   element, boundary  as in fuge_operator_halfplane
- * With FUGE_PERIODIC the field is known below the centres of the cells only.  The mean pressure is
- * then a stress zz = -mean at all depths; what stress it has along the surface depends on how the
- * body is held far away.  Here it is 0: a body that cannot expand has in addition
- * poisson/(1 - poisson) times the mean of zz.  Displacements count, at each depth, from the mean at
- * that depth. */
-int fuge_field_halfplane_grid(int n, double spacing, const double *force, int element,
-                              int boundary, double young, double poisson, int plane_state,
-                              fuge_field **field, char *message, size_t len);
-
-/* Under rectangles on a half-space, each a uniform pressure.
- *   n .. width_y, symmetric_x, symmetric_y  as in fuge_halfspace_matrix
- *   force                                   n; those of 0 cost nothing
- *   young, poisson                          of the body, not of the pair
- * Displacements vanish far away.  At z = 0 stresses are limits from inside, on an edge between
- * different pressures the means of both sides, at a corner those around it; at a corner xy is
- * infinite if poisson < 0.5 and the pressures around it do not balance: its logarithm is left out.
- * Rectangles may overlap: their pressures add up. */
-int fuge_field_halfspace(int n, const double *x, const double *y, const double *width_x,
-                         const double *width_y, const double *force, int symmetric_x,
-                         int symmetric_y, double young, double poisson, fuge_field **field,
-                         char *message, size_t len);
-
-/* Under nx x ny equal cells side by side: cell i + nx*j has its centre at (spacing_x*i,
- * spacing_y*j).  boundary as in fuge_operator_halfspace; of periodic ones all holds that is said
- * above. */
-int fuge_field_halfspace_grid(int nx, int ny, double spacing_x, double spacing_y,
-                              const double *force, int boundary, double young, double poisson,
-                              fuge_field **field, char *message, size_t len);
-
-/* Under n rings about one axis, radius (n + 1) as in fuge_ring_matrix, force (n) of uniform
- * pressures.  At an edge of a ring stresses are the means from both sides. */
-int fuge_field_rings(int n, const double *radius, const double *force, double young,
-                     double poisson, fuge_field **field, char *message, size_t len);
-
-/* Under a smooth punch of fuge_solve_smooth_punch, to rounding; along z displacements have the datum
- * of the approach in fuge_smooth_get_report. */
-int fuge_field_smooth(const fuge_smooth *contact, double young, double poisson, int plane_state,
-                      fuge_field **field, char *message, size_t len);
-
-/* Under a round punch of fuge_solve_round_punch or fuge_solve_round_powers, to rounding.  In the tip
- * of a cone zz is -DBL_MAX. */
-int fuge_field_round(const fuge_round *contact, double young, double poisson, fuge_field **field,
-                     char *message, size_t len);
-
-/* The same in bodies of layers (layers .. bonded as in fuge_layers.h), in the body that these
- * describe, not in the other one; element is FUGE_CENTRE or FUGE_MEAN.  A line is in plane strain.
- * With FUGE_PERIODIC the mean pressure gives the half-space below the layers no stress along the
- * surface, and the layers the same strain as it has; on a rigid base layers have no strain along
- * the surface, and displacements count from the base.  FUGE_ERR_GRID for a place in a rigid base. */
-int fuge_field_layered_line(int layers, const double *thickness, const double *young,
-                            const double *poisson, int bonded, int n, const double *x,
-                            const double *width, const double *force, int element, int symmetric,
-                            fuge_field **field, char *message, size_t len);
-int fuge_field_layered_line_grid(int layers, const double *thickness, const double *young,
-                                 const double *poisson, int bonded, int n, double spacing,
-                                 const double *force, int element, int boundary,
-                                 fuge_field **field, char *message, size_t len);
-int fuge_field_layered_area(int layers, const double *thickness, const double *young,
-                            const double *poisson, int bonded, int n, const double *x,
-                            const double *y, const double *width_x, const double *width_y,
-                            const double *force, int symmetric_x, int symmetric_y,
-                            fuge_field **field, char *message, size_t len);
-int fuge_field_layered_area_grid(int layers, const double *thickness, const double *young,
-                                 const double *poisson, int bonded, int nx, int ny,
-                                 double spacing_x, double spacing_y, const double *force,
-                                 int boundary, fuge_field **field, char *message, size_t len);
 
 /* Tensors, or displacements, at places.
  *   place   in   3 x points: x, y, z of point k at place + 3*k
