@@ -2,7 +2,8 @@
 #
 #   fuge_component_folder(result src component)  the folder of a component below `src`: those of bodies lie in bodies/
 #   fuge_component_of(result folder)             the component that a folder below `src` belongs to
-#   fuge_read_uses(table prefix)  `names`: the rows of one table in order; <prefix><name>: what the row `name` lists
+#   fuge_read_uses(table prefix)  `names`: the rows of one table in order; <prefix><name>: what the row `name` lists;
+#                                 budget_<name>: the numbers between the name and the colon, if any
 #   fuge_read_all_uses(src)       all tables below the folder `src`:
 #       components                the components in the order of components.txt
 #       may_<component>           the components that a component may use
@@ -28,11 +29,12 @@ macro(fuge_read_uses table prefix)
   set(names)
   file(STRINGS "${table}" rows REGEX "^[^#]")
   foreach(row IN LISTS rows)
-    if(NOT row MATCHES "^([^ :]+) *:(.*)$")
+    if(NOT row MATCHES "^([^ :]+)([ 0-9]*):(.*)$")
       message(FATAL_ERROR "${table}: not `name : names that it may use`: ${row}")
     endif()
     list(APPEND names "${CMAKE_MATCH_1}")
-    string(REGEX MATCHALL "[^ ]+" "${prefix}${CMAKE_MATCH_1}" "${CMAKE_MATCH_2}")
+    string(REGEX MATCHALL "[0-9]+" "budget_${CMAKE_MATCH_1}" "${CMAKE_MATCH_2}")
+    string(REGEX MATCHALL "[^ ]+" "${prefix}${CMAKE_MATCH_1}" "${CMAKE_MATCH_3}")
   endforeach()
 endmacro()
 

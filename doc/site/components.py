@@ -44,7 +44,7 @@ def read_table(path):
     for line in path.read_text().splitlines():
         if line.strip() and not line.startswith("#"):
             name, _, used = line.partition(":")
-            rows[name.strip()] = used.split()
+            rows[name.split()[0]] = used.split()
     return {name: set(used) for name, used in rows.items()}
 
 
