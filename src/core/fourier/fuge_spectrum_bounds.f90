@@ -21,7 +21,8 @@ module fuge_spectrum_bounds
 
   !> The eigenvalues of a convolution.
   type, public :: spectrum_bounds
-    !> That of the constant, the least and the largest magnitude of the others, and the 2-norm of all together.
+    !> `constant`: eigenvalue of the constant vector; `least`, `most`: bounds of the others' magnitudes; `together`:
+    !> 2-norm of all.
     real(dp) :: constant = 0.0_dp, least = huge(1.0_dp), most = 0.0_dp, together = 0.0_dp
   contains
     procedure :: add_waves

@@ -191,7 +191,7 @@ contains
     integer :: n
 
     if (x < LARGE_X) then
-      ! Ratios of each to the one before, from an order on that is far less.
+      ! Miller's downward recurrence for ratios of spherical Bessel functions, from an order where they are negligible.
       bessel(BEGIN) = 0.0_dp
       do n = BEGIN - 1, 1, -1
         bessel(n) = x/(real(2*n + 1, dp) - x*bessel(n + 1))

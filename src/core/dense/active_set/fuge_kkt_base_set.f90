@@ -287,7 +287,7 @@ contains
     nearest_to_zero = max(least, 0.0_dp) + min(most, 0.0_dp)
   end subroutine gather_block
 
-  !> Every so many columns, with their extremes.
+  !> Gathers columns part, part + parts, .. and their extremes.
   subroutine gather_part(self, part, parts)
     class(gathering), intent(inout) :: self
     integer, intent(in) :: part, parts

@@ -22,8 +22,8 @@ module fuge_limited_equilibrium
   !> A resultant beyond the limits by this many units in its last place is carried by all of them.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
 
-  !> What forces can still gain is less than this fraction of what the resultant does: at the least remainder it is
-  !> nothing, for a resultant that can just be carried all.
+  !> The resultant cannot be carried if the work that forces within limits can still do is below this fraction of the
+  !> remainder's: at the least remainder they can do none, for a resultant that can just be carried all of it.
   real(dp), parameter :: PROOF = 0.5_dp
   !> Steps by points that do next to no work, after which equilibrium is left undecided.
   integer, parameter :: MOST_UNPROVEN = 50
