@@ -3,8 +3,8 @@
 # Holds every `use` of a module of fuge in SOURCES against SOURCES/components.txt, which has the components, and against
 # folders.txt of each component that has one, and names each line that breaks a rule. Also: the tables have just the
 # folders that there are, neither components nor folders of one component use each other in circles, a module has the
-# name of its file, a folder has at most 15 files, a procedure at most 8 arguments unless its docstring says why it has
-# more, and nothing reaches the space of the points through two components.
+# name of its file, a folder has at most 15 files and a name of its own, a procedure at most 8 arguments unless its
+# docstring says why it has more, and nothing reaches the space of the points through two components.
 cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/uses.cmake")
 set(MOST_FILES 15)
@@ -67,6 +67,23 @@ foreach(folder IN LISTS folders)
   if(count GREATER MOST_FILES)
     offence("${folder} has ${count} files, more than ${MOST_FILES}")
   endif()
+endforeach()
+
+# A name says which folder is meant: outside of bodies/ none stands twice, and bodies share matrix, grid, field and c only.
+set(met)
+foreach(folder IN LISTS folders)
+  get_filename_component(name "${folder}" NAME)
+  fuge_component_folder(place "${SOURCES}" "${name}")
+  if(folder MATCHES "^variants" OR folder STREQUAL place)
+    continue()
+  endif()
+  if(folder MATCHES "^bodies/" AND name MATCHES "^(matrix|grid|field|c)$")
+    continue()
+  endif()
+  if(name IN_LIST met)
+    offence("${folder} has the name of another folder")
+  endif()
+  list(APPEND met "${name}")
 endforeach()
 
 # May `folder` use the folder `target`? The facade of a component lies in the folder of the component itself; a row that

@@ -44,6 +44,8 @@ plant(core/base/fuge_planted_fifteen.f90 "submodule(fuge_solver_type) fuge_other
   "core/base/fuge_planted_fifteen.f90 is a part of fuge_solver_type, which is in another folder\n")
 plant(core/room/fuge_planted_ten.f90 "module fuge_planted_ten\nend module fuge_planted_ten\n"
   "core/folders.txt lacks the folder core/room\n")
+plant(fe/tableau/fuge_planted_sixteen.f90 "module fuge_planted_sixteen\nend module fuge_planted_sixteen\n"
+  "fe/tableau has the name of another folder\n")
 plant(core/folders.txt "cellar : base\n" "core/folders.txt names core/cellar, a folder without sources\n")
 plant(bodies/rings/folders.txt "hertz : core/attic\n"
   "bodies/rings/folders.txt lets bodies/rings/hertz use core/attic, which is not a folder\n")
