@@ -16,11 +16,13 @@ import textwrap
 
 # What a component holds, in a few words for its box.
 HOLDS = {
-    "core": "problem, engines, certificate, half-plane",
-    "area": "half-space, rings, Hertz",
-    "layers": "elastic layers, graded bodies",
-    "punch": "smooth and round punches, no grid",
-    "stress": "stresses inside, the largest",
+    "core": "problem, engines, certificate, proofs",
+    "elastic": "moduli, cells, fields inside",
+    "halfplane": "cells, edges of contact",
+    "halfspace": "rectangles",
+    "rings": "round bodies",
+    "layers": "coated and graded bodies",
+    "punches": "Hertz, smooth and round, no grid",
     "fe": "stiffness, pairs, bodies",
     "files": "results for ParaView",
     "facade": "the module fuge",
@@ -28,7 +30,7 @@ HOLDS = {
     "mpi": "surfaces over MPI",
     "sparse": "CHOLMOD",
 }
-SEVEN = {"core", "area", "layers", "punch", "stress", "fe", "files"}
+LIBRARY = {"core", "elastic", "halfplane", "halfspace", "rings", "layers", "punches", "fe", "files"}
 
 BOX_HEIGHT, LAYER_GAP, BOX_GAP, FRAME_PAD, MARGIN = 80, 36, 14, 8, 8
 # For a page of 800 pixels: lines of more than LINE_LENGTH letters are broken.
@@ -42,7 +44,7 @@ def read_table(path):
     for line in path.read_text().splitlines():
         if line.strip() and not line.startswith("#"):
             name, _, used = line.partition(":")
-            rows[name.strip()] = used.split()
+            rows[name.split()[0]] = used.split()
     return {name: set(used) for name, used in rows.items()}
 
 
@@ -278,7 +280,7 @@ def node_shapes(node, x, y):
 
 def box_shapes(component, begin, y):
     width = box_width(component)
-    fill = "#dcecf7" if component in SEVEN else "#fbe9d0"
+    fill = "#dcecf7" if component in LIBRARY else "#fbe9d0"
     parts = [f'<rect x="{begin:.1f}" y="{y:.1f}" width="{width:.1f}" height="{BOX_HEIGHT}" rx="5" '
              f'fill="{fill}" stroke="#4a5563"/>']
     name, contents = box_lines(component)

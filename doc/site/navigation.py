@@ -13,11 +13,12 @@ from sources import described, opening_sentence, public_modules, taken_names
 
 # Topics of the Fortran interface: folders of src/, the most exact name first.
 TOPICS = {
-    "core/solver": "Solver", "core/model": "Problem and options", "core/base": "Status and kinds",
-    "core/engines": "Load path and history", "core/halfplane": "Half-plane", "core": "Core",
-    "area/hertz": "Hertz", "area": "Half-space", "punch/smooth": "Smooth punch", "punch/round": "Round punch",
-    "stress": "Stresses", "fe/condensation": "Finite elements", "sparse": "Sparse stiffness",
-    "fe/bodies": "Several bodies", "fe": "Pairs of surfaces", "files": "Results for ParaView", "mpi": "Surfaces over MPI",
+    "core/solver/path": "Load path and history", "core/dense": "Load path and history", "core/solver": "Solver",
+    "core/problem": "Problem and options", "core/base": "Status and kinds", "core": "Core",
+    "bodies/halfplane": "Half-plane", "bodies/halfspace": "Half-space", "bodies/rings": "Rings",
+    "bodies/punches/smooth": "Smooth punch", "bodies/punches/round": "Round punch", "bodies/punches": "Fields of punches",
+    "bodies/layers": "Layers", "bodies/elastic": "Elastic bodies",
+    "fe/condensation": "Finite elements", "sparse": "Sparse stiffness", "fe/assembly": "Several bodies", "fe": "Pairs of surfaces", "files": "Results for ParaView", "mpi": "Surfaces over MPI",
 }
 # The modules that give the names of topics with a library of their own.
 LIBRARIES = {"Sparse stiffness": "fuge_sparse", "Surfaces over MPI": "fuge_mpi"}

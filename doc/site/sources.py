@@ -39,8 +39,9 @@ def described(source):
 
 # Modules that pass on the names of others: of all, of each component, and of the library fuge_mpi. fuge_sparse has one
 # module.
-COMPONENTS = ("core", "area", "layers", "punch", "stress", "fe", "files")
-FACADES = ("src/facade/fuge.f90", *(f"src/{name}/fuge_{name}.f90" for name in COMPONENTS), "src/mpi/fuge_mpi.f90")
+BODIES = ("elastic", "halfplane", "halfspace", "rings", "layers", "punches")
+FACADES = ("src/facade/fuge.f90", *(f"src/{name}/fuge_{name}.f90" for name in ("core", "fe", "files")),
+           *(f"src/bodies/{name}/fuge_{name}.f90" for name in BODIES), "src/mpi/fuge_mpi.f90")
 
 
 def source_of(root, module):
