@@ -69,7 +69,7 @@ foreach(folder IN LISTS folders)
   endif()
 endforeach()
 
-# A name says which folder is meant: outside of bodies/ none stands twice, and bodies share matrix, grid, field and c only.
+# A name says which folder is meant: outside of bodies/ none stands twice, and bodies share matrix, grid and field only.
 set(met)
 foreach(folder IN LISTS folders)
   get_filename_component(name "${folder}" NAME)
@@ -77,7 +77,7 @@ foreach(folder IN LISTS folders)
   if(folder MATCHES "^variants" OR folder STREQUAL place)
     continue()
   endif()
-  if(folder MATCHES "^bodies/" AND name MATCHES "^(matrix|grid|field|c)$")
+  if(folder MATCHES "^bodies/" AND name MATCHES "^(matrix|grid|field)$")
     continue()
   endif()
   if(name IN_LIST met)

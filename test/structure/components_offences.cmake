@@ -19,8 +19,9 @@ plant(core/products/scene/fuge_planted_three.f90
 plant(core/problem/fuge_planted_four.f90
   "module fuge_planted_four\n  use fuge_halfspace_fft, only: a\nend module fuge_planted_four\n"
   "core/problem/fuge_planted_four.f90 uses fuge_halfspace_fft: core/problem may not use bodies/halfspace/grid\n")
-plant(bodies/halfplane/folders.txt "c : layers/stack\n" "bodies/halfplane/folders.txt has bodies/halfplane/c twice\n"
-  "bodies/halfplane/folders.txt lets bodies/halfplane/c use bodies/layers/stack: halfplane may not use layers\n")
+plant(bodies/halfplane/folders.txt "grid : layers/stack\n"
+  "bodies/halfplane/folders.txt has bodies/halfplane/grid twice\n"
+  "bodies/halfplane/folders.txt lets bodies/halfplane/grid use bodies/layers/stack: halfplane may not use layers\n")
 # A body that knows an engine.
 plant(bodies/layers/stack/fuge_planted_six.f90
   "module fuge_planted_six\n  use fuge_active_set_engine, only: a\nend module fuge_planted_six\n"
