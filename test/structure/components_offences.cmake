@@ -19,9 +19,12 @@ plant(core/products/scene/fuge_planted_three.f90
 plant(core/problem/fuge_planted_four.f90
   "module fuge_planted_four\n  use fuge_halfspace_fft, only: a\nend module fuge_planted_four\n"
   "core/problem/fuge_planted_four.f90 uses fuge_halfspace_fft: core/problem may not use bodies/halfspace/grid\n")
-plant(bodies/halfplane/folders.txt "c : layers/stack\n" "bodies/halfplane/folders.txt has bodies/halfplane/c twice\n"
-  "bodies/halfplane/folders.txt lets bodies/halfplane/c use bodies/layers/stack: halfplane may not use layers\n")
-# A body that knows an engine.
+plant(bodies/halfplane/folders.txt "grid : layers/stack\n"
+  "bodies/halfplane/folders.txt has bodies/halfplane/grid twice\n"
+  "bodies/halfplane/folders.txt lets bodies/halfplane/grid use bodies/layers/stack: halfplane may not use layers\n")
+# A body that knows an engine, in its table and in a module.
+plant(bodies/rings/folders.txt "field : core/products\n"
+  "bodies/rings/folders.txt lets bodies/rings/field use core/products: a body knows no engine\n")
 plant(bodies/layers/stack/fuge_planted_six.f90
   "module fuge_planted_six\n  use fuge_active_set_engine, only: a\nend module fuge_planted_six\n"
   "bodies/layers/stack/fuge_planted_six.f90 uses fuge_active_set_engine: bodies/layers/stack may not use core/dense/active_set\n")
