@@ -3,6 +3,7 @@ module fuge_field_type
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED
+  use fuge_stress_field, only: stress_field
   use fuge_stress_peak_type, only: check_measure, fuge_interface_stress, fuge_stress_peak
   implicit none
   private
@@ -14,7 +15,7 @@ module fuge_field_type
   !> Places are x, y, z, length, z >= 0 into the body. In a plane y does not count, and displacements along it are 0;
   !> about an axis x is the radius and y the circumference. Tensors are xx, yy, zz, yz, xz, xy, force per length
   !> squared, tension positive: under a pressure p at z = 0 zz is -p. Displacements are positive along their axes.
-  type, abstract, public :: fuge_field
+  type, abstract, extends(stress_field), public :: fuge_field
     !> For children: has it been set, is it known at any place?
     logical :: is_set = .false., has_places = .true.
     !> For children: below how many cells of a grid is it known?
@@ -26,9 +27,7 @@ module fuge_field_type
     procedure :: grid_displacement
     procedure :: largest
     procedure :: interfaces
-    !> What a child knows, its arguments checked: stresses at places.
-    procedure(at_places), deferred :: find_stress
-    !> Displacements at places.
+    !> What a child knows, its arguments checked: `find_stress` and displacements at places.
     procedure(at_places), deferred :: find_displacement
     !> The largest stress.
     procedure(find_peak), deferred :: find_largest
