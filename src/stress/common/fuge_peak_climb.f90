@@ -2,8 +2,8 @@
 !>
 !> Around every place that still may lead to the largest value differences give a quadratic model, whose best point
 !> within a trust radius comes next (J. Nocedal and S. J. Wright, Numerical Optimization, 2006, chapter 4). The von
-!> Mises stress is smooth where it is large. The Tresca stress is the largest of three differences of principal stresses:
-!> where it has a maximum, so has each of them that is as large, so that its maxima are not at its kinks.
+!> Mises stress is smooth where it is large. The Tresca stress is the largest of three differences of principal
+!> stresses: where it has a maximum, so has each of them that is as large, so that its maxima are not at its kinks.
 module fuge_peak_climb
   use fuge_kinds, only: dp
   use fuge_peak_starts, only: peak_start

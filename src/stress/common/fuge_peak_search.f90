@@ -20,8 +20,8 @@ contains
   !> The largest stress of a `field` below `cells` of pressure, which may be none.
   !>
   !> Its relative error is below 1e-6 where the stress is smooth around its maximum, and below 1e-3 where it has a cusp
-  !> there, as at the surface beside the rim of a ball, unless the maximum keeps less than 0.7 of its value at all places
-  !> of the grid nearby. Where the pressure of the cells grows towards a rim as under a flat punch it is singular. Of
+  !> there, as at the surface beside the rim of a ball, unless at all places of the grid nearby less than 0.7 of the
+  !> maximum is left. Where the pressure of the cells grows towards a rim as under a flat punch it is singular. Of
   !> symmetric cells the place is that with x >= 0, y >= 0. Errors, `peak` untouched: those of the field,
   !> FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW if no stress is finite.
   subroutine find_peak(field, cells, measure, peak, info)

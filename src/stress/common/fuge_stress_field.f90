@@ -14,8 +14,8 @@ module fuge_stress_field
   abstract interface
     !> `values` (6, points): xx, yy, zz, yz, xz, xy at `place` (3, points), x, y, z >= 0; tension is positive.
     !>
-    !> Fields in a plane have y = 0 and no yz, xy; those about an axis take x >= 0 as the radius. `below` (points): at an
-    !> interface of layers, just below it.
+    !> Fields in a plane have y = 0 and no yz, xy; those about an axis take x >= 0 as the radius. `below` (points): at
+    !> an interface of layers, just below it.
     subroutine stresses_at_places(self, place, below, values, info)
       import :: stress_field, dp, fuge_info
       class(stress_field), intent(in) :: self

@@ -212,8 +212,8 @@ contains
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
 
-    call find_largest(self, self%body, [self%loads%cell_width(), 0.0_dp], [self%cells, 1], self%loads%force, measure, peak, &
-                      info)
+    call find_largest(self, self%body, [self%loads%cell_width(), 0.0_dp], [self%cells, 1], self%loads%force, measure, &
+                      peak, info)
     if (.not. info%failed()) peak%place(1) = self%loads%x(peak%cell)
   end subroutine line_largest
 
@@ -337,7 +337,8 @@ contains
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
 
-    call find_largest(self, self%body, self%loads%cell_widths(), self%loads%sides, self%loads%force, measure, peak, info)
+    call find_largest(self, self%body, self%loads%cell_widths(), self%loads%sides, self%loads%force, measure, peak, &
+                      info)
     if (.not. info%failed()) peak%place(:2) = [self%loads%x(peak%cell), self%loads%y(peak%cell)]
   end subroutine area_largest
 

@@ -168,8 +168,8 @@ contains
   end subroutine round_displacement
 
   !> In the tip of a cone and along an edge of the punch within the contact the pressure p is infinite like a logarithm,
-  !> and so is every stress, but not in the same ratio: in a tip rr = tt = -(1/2 + poisson) p beside zz = -p, and along an
-  !> edge tt = poisson (rr + zz). Unless poisson = 0.5 the measures are infinite with them.
+  !> and so is every stress, but not in the same ratio: in a tip rr = tt = -(1/2 + poisson) p beside zz = -p, and along
+  !> an edge tt = poisson (rr + zz). Unless poisson = 0.5 the measures are infinite with them.
   subroutine round_largest(self, measure, peak, info)
     use fuge_peak_search, only: find_peak, singular_peak
     use fuge_pressed_cells, only: pressed_cells

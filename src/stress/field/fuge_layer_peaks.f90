@@ -1,8 +1,9 @@
 !> The largest stresses in a body of layers below the cells of a grid: in the whole body, and at each interface.
 !>
-!> At each depth all cells are seen at once, so the search for the largest one is a search along the depth. Stresses vary
-!> there over lengths of the order of the depth, because all that gives rise to them lies at the surface or beyond the
-!> next interface: depths at equal ratios miss no maximum. Each that may be the largest one is then found by parabolas.
+!> At each depth all cells are seen at once, so the search for the largest one is a search along the depth. Stresses
+!> vary there over lengths of the order of the depth, because all that gives rise to them lies at the surface or beyond
+!> the next interface: depths at equal ratios miss no maximum. Each that may be the largest one is then found by
+!> parabolas.
 module fuge_layer_peaks
   use fuge_field_type, only: fuge_field
   use fuge_kinds, only: dp
@@ -24,7 +25,7 @@ module fuge_layer_peaks
   real(dp), parameter :: HIDDEN = 0.05_dp
   !> A maximum is found if its parabola exceeds it by less than EXCESS of it, and the depths beside it are less by at
   !> most FALL.
-  real(dp), parameter :: EXCESS = 1.0e-8_dp, FALL = 1.0e-4_dp
+  real(dp), parameter :: EXCESS = 1.0e-7_dp, FALL = 1.0e-3_dp
   !> The next depth is at least this fraction of the way to one of the depths around the best one.
   real(dp), parameter :: LEAST_STEP = 0.1_dp
   integer, parameter :: MOST_STEPS = 40
@@ -34,8 +35,8 @@ module fuge_layer_peaks
 contains
 
   !> The largest value of a `measure` below the centres of the cells of a grid: in all layers of the `stack`, on both
-  !> sides of each interface, at the surface, and at all depths from a quarter of the `width` of a cell on, to a relative
-  !> error of 1e-6. Of the place only the depth is set.
+  !> sides of each interface, at the surface, and at all depths from a quarter of the `width` of a cell on, to a
+  !> relative error of 1e-6. Of the place only the depth is set.
   !>
   !> `extent` of the cells with a force, length, 0 if there are none: then the stress is 0. Errors, `peak` untouched:
   !> those of `grid_stress`, FUGE_ERR_OVERFLOW if no stress is finite.
@@ -75,7 +76,7 @@ contains
     type(layer_stack), intent(in) :: stack
     real(dp), intent(in) :: first, last
     type(fuge_stress_peak), allocatable :: at(:)
-    real(dp) :: bottom, start, top
+    real(dp) :: bottom, part, start, top
     integer :: count, j, k, layers
 
     layers = size(stack%shear)
@@ -91,7 +92,8 @@ contains
       at = [at, fuge_stress_peak(layer=k, place=[0.0_dp, 0.0_dp, top])]
       if (start > top) at = [at, fuge_stress_peak(layer=k, place=[0.0_dp, 0.0_dp, start])]
       do j = 1, count
-        at = [at, fuge_stress_peak(layer=k, place=[0.0_dp, 0.0_dp, start*(bottom/start)**(real(j, dp)/real(count, dp))])]
+        part = real(j, dp)/real(count, dp)
+        at = [at, fuge_stress_peak(layer=k, place=[0.0_dp, 0.0_dp, start*(bottom/start)**part])]
       end do
       at(size(at))%place(3) = bottom
     end do
@@ -191,8 +193,8 @@ contains
   end subroutine maximise
 
   !> The largest stresses at the surface and at each interface from above, `peaks`, below the centres of cells: at the
-  !> surface the stresses of the last cells in contact jump from one cell to the next, and their error is of the order of
-  !> a cell. Errors: those of `grid_stress`, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  !> surface the stresses of the last cells in contact jump from one cell to the next, and their error is of the order
+  !> of a cell. Errors: those of `grid_stress`, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
   subroutine find_interface_peaks(field, stack, peaks, info)
     class(fuge_field), intent(in) :: field
     type(layer_stack), intent(in) :: stack
@@ -209,8 +211,8 @@ contains
       sides = 1
       if (k > 1) sides = merge(1, 2, stack%shear(k) > huge(1.0_dp))
       peaks(k)%depth = sum(stack%thickness(:k - 1))
-      call field%find_grid_stress(spread(peaks(k)%depth, 1, sides), [(side == 2, side=1, sides)], tensor(:, :, :sides), &
-                                  info)
+      call field%find_grid_stress(spread(peaks(k)%depth, 1, sides), [(side == 2, side=1, sides)], &
+                                  tensor(:, :, :sides), info)
       do side = 1, sides
         if (.not. info%failed()) call take_side(tensor(:, :, side), side, principal, peaks(k), info)
       end do

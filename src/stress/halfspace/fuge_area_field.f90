@@ -230,7 +230,8 @@ contains
         count = count + n
       end do
     end associate
-    call add_forces(size(near), x(:count), y(:count), force(:count), field%poisson, [0.0_dp], [0.0_dp], place(3:3), sums)
+    call add_forces(size(near), x(:count), y(:count), force(:count), field%poisson, [0.0_dp], [0.0_dp], place(3:3), &
+                    sums)
   end subroutine add_loads
 
   !> Add the field of load `k`, which is close to the place.
