@@ -115,7 +115,7 @@ contains
         if (any(self%symmetric .and. place < 0.0_dp)) cycle
         ! The middle one of them is that of the cell itself.
         if (n /= (3**self%axes - 1)/2) then
-          if (is_pressed(self, place(:self%axes))) cycle
+          if (is_pressed(self, k, place(:self%axes))) cycle
         end if
         number = number + 1
         list(:, number) = place(:self%axes)
@@ -124,18 +124,24 @@ contains
     self%surface = list(:, :number)
   end subroutine find_surface
 
-  !> Does a place lie in a cell, or too close to it?
-  pure function is_pressed(cells, place) result(pressed)
+  !> Does a place beside cell `k` lie in another one, or too close to it? Those that follow it in the list, or go before,
+  !> are mostly its neighbours.
+  pure function is_pressed(cells, k, place) result(pressed)
     class(pressed_cells), intent(in) :: cells
+    integer, intent(in) :: k
     real(dp), intent(in) :: place(:)
     logical :: pressed
-    integer :: k
+    integer :: i, j, side
 
     pressed = .true.
-    do k = 1, size(cells%pressure)
-      associate (width => cells%width(:, k))
-        if (all(abs(place - cells%centre(:, k)) < 0.5_dp*width + BESIDE*minval(width))) return
-      end associate
+    do i = 1, size(cells%pressure) - 1
+      do side = -1, 1, 2
+        j = k + side*i
+        if (j < 1 .or. j > size(cells%pressure)) cycle
+        associate (width => cells%width(:, j))
+          if (all(abs(place - cells%centre(:, j)) < 0.5_dp*width + BESIDE*minval(width))) return
+        end associate
+      end do
     end do
     pressed = .false.
   end function is_pressed
