@@ -1,42 +1,49 @@
-!> The largest von Mises or Tresca stress of a field, by search.
+!> The largest von Mises or Tresca stress of a field: the best places of a grid that is finer where it has to be, then a
+!> climb from each.
 module fuge_peak_search
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_quiet_nan, ieee_value
   use fuge_kinds, only: dp
   use fuge_peak_climb, only: climb
   use fuge_peak_starts, only: find_starts, peak_start
   use fuge_pressed_cells, only: pressed_cells
-  use fuge_ridge_walk, only: walk_ridge
+  use fuge_pressure_rims, only: find_singular_rim
   use fuge_status, only: fuge_info, report, FUGE_ERR_OVERFLOW
   use fuge_stress_field, only: stress_field
-  use fuge_stress_peak_type, only: fuge_stress_peak, FUGE_PEAK_INSIDE, FUGE_PEAK_SINGULAR, FUGE_PEAK_SURFACE
+  use fuge_stress_peak_type, only: fuge_stress_peak, FUGE_PEAK_SINGULAR, FUGE_PEAK_SURFACE
   implicit none
   private
 
   public :: find_peak, singular_peak
 
-  !> A maximum that is flatter along one direction than this is one of a ridge.
-  real(dp), parameter :: RIDGE = 1.0e-2_dp
-
 contains
 
   !> The largest stress of a `field` below `cells` of pressure, which may be none.
   !>
-  !> Its relative error is of the order of 1e-12, if the field has as many digits, unless the maximum keeps less than
-  !> `START_SHARE` of its value at all candidates nearby. Errors, `peak` untouched: those of the field, FUGE_ERR_MEMORY,
-  !> FUGE_ERR_OVERFLOW if no stress is finite.
+  !> Its relative error is below 1e-6 where the stress is smooth around its maximum, and below 1e-3 where it has a cusp
+  !> there, as at the surface beside the rim of a ball, unless at all places of the grid nearby less than 0.7 of the
+  !> maximum is left. Where the pressure of the cells grows towards a rim as under a flat punch it is singular. Of
+  !> symmetric cells the place is that with x >= 0, y >= 0. Errors, `peak` untouched: those of the field,
+  !> FUGE_ERR_MEMORY, FUGE_ERR_OVERFLOW if no stress is finite.
   subroutine find_peak(field, cells, measure, peak, info)
-    class(stress_field), intent(inout) :: field
+    class(stress_field), intent(in) :: field
     type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(inout) :: info
     type(peak_start), allocatable :: starts(:)
     type(peak_start) :: best
-    real(dp) :: flatness, tensor(6, 1)
+    real(dp) :: edge(2), tensor(6, 1)
+    logical :: singular
 
     if (info%failed()) return
     if (size(cells%pressure) == 0) then
       peak = fuge_stress_peak()
+      return
+    end if
+    call find_singular_rim(cells, singular, edge, info)
+    if (info%failed()) return
+    if (singular) then
+      peak = singular_peak([merge(abs(edge), edge, cells%symmetric), 0.0_dp])
       return
     end if
     call find_starts(field, cells, measure, starts, info)
@@ -45,19 +52,11 @@ contains
       call report(info, FUGE_ERR_OVERFLOW, 'no stress is in range: choose another unit of force')
       return
     end if
-    call climb(field, cells%axes, measure, starts, best, flatness, info)
-    if (flatness < RIDGE .and. .not. (info%failed() .or. best%fixed)) then
-      call walk_ridge(field, cells%axes + 1, measure, best, info)
-      ! At the least depth the highest place of a ridge is no maximum across.
-      starts = [best]
-      call climb(field, cells%axes, measure, starts, best, flatness, info)
-    end if
-    if (.not. info%failed()) call field%stresses(reshape(best%place, [3, 1]), tensor, info)
+    call climb(field, cells, measure, starts, best, info)
+    where (cells%symmetric) best%place(:2) = abs(best%place(:2))
+    if (.not. info%failed()) call field%find_stress(reshape(best%place, [3, 1]), [.false.], tensor, info)
     if (info%failed()) return
-    peak%value = best%value
-    peak%place = best%place
-    peak%tensor = tensor(:, 1)
-    peak%location = FUGE_PEAK_INSIDE
+    peak = fuge_stress_peak(value=best%value, place=best%place, tensor=tensor(:, 1))
     if (.not. peak%place(3) > 0.0_dp) peak%location = FUGE_PEAK_SURFACE
   end subroutine find_peak
 

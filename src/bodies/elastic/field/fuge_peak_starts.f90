@@ -12,35 +12,26 @@ module fuge_peak_starts
   use fuge_pressed_cells, only: pressed_cells
   use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
-  use fuge_surface_scan, only: scan_surface, surface_place
   implicit none
   private
 
   public :: find_starts
 
   !> Candidates below this fraction of the best value are not followed: those beside the largest stress have more.
-  real(dp), parameter, public :: START_SHARE = 0.7_dp
+  real(dp), parameter :: START_SHARE = 0.7_dp
   !> A part is not halved if the sum of its best value and of what its cells could add is below HALVED_SHARE of the best
   !> value. Uniform pressure on a patch adds up to UNSEEN_SHARE of itself, at the surface with a negative Poisson's
   !> ratio more, and as much again beside a patch that is pulled.
   real(dp), parameter :: HALVED_SHARE = 0.8_dp, UNSEEN_SHARE = 0.85_dp
-  !> After FIRST_SURFACE candidates at the surface, more are tried only if the best of them has at least SURFACE_SHARE
-  !> of the best value.
-  integer, parameter :: FIRST_SURFACE = 64
-  real(dp), parameter :: SURFACE_SHARE = 0.5_dp
   !> Depth of a candidate over the size of its part; below a single cell it is halved twice.
   real(dp), parameter :: DEPTH_RATIO = 1.4_dp
-  !> Candidates of a part: DEPTHS below its middle, one at the surface, and those below the edges of a cell, where the
-  !> pressure jumps.
-  integer, parameter :: DEPTHS = 3, AT_SURFACE = DEPTHS + 1, CANDIDATES = AT_SURFACE + 4
+  integer, parameter :: DEPTHS = 3
   !> The greatest size of a part, in its breadths.
   real(dp), parameter :: LONGEST = 3.0_dp
   !> Two starts climb to the same maximum if their distance is below this fraction of the lesser length of them.
   real(dp), parameter :: NEARNESS = 0.75_dp
-  !> Parts in one portion, and the number of starts at most.
-  integer, parameter :: PORTION = 2**13, MOST_STARTS = 2000
-  !> Starts from which the list is thinned out.
-  integer, parameter :: LONG_LIST = 4*MOST_STARTS + CANDIDATES*PORTION
+  !> The number of starts at most.
+  integer, parameter :: MOST_STARTS = 1000
 
   !> A place from which to climb.
   type, public :: peak_start
@@ -51,329 +42,257 @@ module fuge_peak_starts
     logical :: fixed = .false.
   end type peak_start
 
-  !> Cells order(first) .. order(last) of the list of a search.
+  !> Cells order(first) .. order(last) of the list of a search: the middle of them, a length, where to halve them along
+  !> which axis (0: a single cell), and the cell with the largest pressure.
   type :: part
     integer :: first = 0, last = 0
-    !> The cell whose middle at the surface has been tried already.
-    integer :: tried = 0
-  end type part
-
-  !> The best value so far, the best one at the surface, and the number of candidates there.
-  type :: tally
-    real(dp) :: best = -1.0_dp, surface_best = -1.0_dp
-    integer :: surface_count = 0
-  end type tally
-
-  !> Extent and pressure of a part.
-  type :: survey
-    real(dp) :: middle(2) = 0.0_dp, length = 0.0_dp, split_at = 0.0_dp, pressure = 0.0_dp
+    real(dp) :: middle(2) = 0.0_dp, length = 0.0_dp, split_at = 0.0_dp
     integer :: split_axis = 0, strongest = 0
-  end type survey
+    !> The number of its candidates, their best value and the stress zz at the first one.
+    integer :: candidates = 0
+    real(dp) :: best = -1.0_dp, normal = 0.0_dp
+  end type part
 
 contains
 
   !> The candidates of a `field` above `START_SHARE` of the best one, best first, without those next to a better one.
   !> `cells` at least one. Errors: those of the field, FUGE_ERR_MEMORY.
   subroutine find_starts(field, cells, measure, starts, info)
-    class(stress_field), intent(inout) :: field
+    class(stress_field), intent(in) :: field
     type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: measure
     type(peak_start), allocatable, intent(out) :: starts(:)
     type(fuge_info), intent(inout) :: info
-    type(peak_start), allocatable :: list(:)
-    type(part), allocatable :: parts(:), halves(:)
+    type(part), allocatable :: parts(:)
+    type(peak_start), allocatable :: tried(:)
     integer, allocatable :: order(:)
-    type(tally) :: so_far
-    integer :: count, first, k, last, number, number_next, stat
+    integer :: k, stat
 
-    number = size(cells%pressure)
-    allocate (list(LONG_LIST), parts(number), halves(number), order(number), stat=stat)
-    call require_memory(stat, 'the search below', number, 'cells', info)
+    allocate (starts(0), parts(1), order(size(cells%pressure)), stat=stat)
+    call require_memory(stat, 'the search below', size(cells%pressure), 'cells', info)
     if (stat /= 0) return
-    order = [(k, k=1, number)]
+    order = [(k, k=1, size(order))]
     parts(1)%first = 1
-    parts(1)%last = number
-    count = 0
-    number = 1
-    do while (number > 0)
-      number_next = 0
-      do first = 1, number, PORTION
-        last = min(first + PORTION - 1, number)
-        call try_parts(field, cells, measure, parts(first:last), order, list, count, so_far, halves, &
-                       number_next, info)
-        if (info%failed()) return
-      end do
-      number = number_next
-      parts(:number) = halves(:number)
+    parts(1)%last = size(order)
+    call list_surface(cells, tried, info)
+    call add_candidates(field, cells, measure, tried, starts, info)
+    ! Without a climb the best one is enough.
+    if (.not. cells%continuous .and. size(starts) > 1) starts = [starts(maxloc(starts%value, dim=1))]
+    do while (size(parts) > 0)
+      call list_candidates(cells, order, parts, tried, info)
+      call add_candidates(field, cells, measure, tried, starts, info, parts)
+      if (info%failed()) return
+      call halve_parts(cells, maxval(starts%value), order, parts, info)
     end do
-    if (cells%spreads .and. so_far%surface_best >= SURFACE_SHARE*so_far%best) &
-      call add_surface(field, cells, measure, list, count, info)
-    if (info%failed()) return
-    call thin_out(list, count, info)
-    if (info%failed()) return
-    allocate (starts(count), stat=stat)
-    call require_memory(stat, '', count, 'starts of the search', info)
-    if (stat == 0) starts = list(:count)
+    call thin_out(starts, info)
   end subroutine find_starts
 
-  !> Evaluate the candidates of `parts`, add the good ones to the `list`, and halve the parts that may hide better ones.
-  !> Eleven arguments: the field, its cells, the parts, the list, what comes next.
-  subroutine try_parts(field, cells, measure, parts, order, list, count, so_far, halves, number, info)
-    class(stress_field), intent(inout) :: field
+  !> At the surface: the middle of the cell with the largest pressure, and what the cells name. FUGE_ERR_MEMORY.
+  pure subroutine list_surface(cells, tried, info)
     type(pressed_cells), intent(in) :: cells
-    integer, intent(in) :: measure
-    type(part), intent(inout) :: parts(:)
-    integer, intent(inout) :: order(:), count, number
-    type(peak_start), intent(inout) :: list(:)
-    type(tally), intent(inout) :: so_far
-    type(part), intent(inout) :: halves(:)
+    type(peak_start), allocatable, intent(out) :: tried(:)
     type(fuge_info), intent(inout) :: info
-    type(survey), allocatable :: surveys(:)
-    type(peak_start), allocatable :: tried(:, :)
-    real(dp), allocatable :: normal(:, :)
-    real(dp) :: seen, hidden_share
-    integer :: c, p, stat
+    integer :: k, number, stat
 
-    hidden_share = UNSEEN_SHARE*max(1.0_dp, cells%surface_factor)
-    if (minval(cells%pressure) < 0.0_dp .and. maxval(cells%pressure) > 0.0_dp) hidden_share = 2.0_dp*hidden_share
-    allocate (surveys(size(parts)), tried(CANDIDATES, size(parts)), normal(CANDIDATES, size(parts)), stat=stat)
+    number = 0
+    if (allocated(cells%surface)) number = size(cells%surface, 2)
+    allocate (tried(number + 1), stat=stat)
+    call require_memory(stat, '', number, 'places of the surface', info)
+    if (stat /= 0) return
+    k = maxloc(abs(cells%pressure), dim=1)
+    tried%length = cells%size_of(k)
+    tried%fixed = .not. cells%continuous
+    tried(number + 1)%place(:cells%axes) = cells%centre(:, k)
+    do k = 1, number
+      tried(k)%place(:cells%axes) = cells%surface(:, k)
+    end do
+  end subroutine list_surface
+
+  !> The candidates of the parts, one part after another. FUGE_ERR_MEMORY.
+  pure subroutine list_candidates(cells, order, parts, tried, info)
+    type(pressed_cells), intent(in) :: cells
+    integer, intent(in) :: order(:)
+    type(part), intent(inout) :: parts(:)
+    type(peak_start), allocatable, intent(out) :: tried(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: number, p, stat
+
+    do p = 1, size(parts)
+      call survey(cells, order(parts(p)%first:parts(p)%last), parts(p))
+    end do
+    allocate (tried(sum(parts%candidates)), stat=stat)
     call require_memory(stat, '', size(parts), 'parts of the search', info)
     if (stat /= 0) return
+    number = 0
     do p = 1, size(parts)
-      surveys(p) = survey_of(cells, order(parts(p)%first:parts(p)%last))
-      tried(:, p) = candidates_of(cells, surveys(p), parts(p)%tried)
-      parts(p)%tried = surveys(p)%strongest
-      if (surface_is_weak(so_far)) tried(AT_SURFACE, p)%length = 0.0_dp
-      if (tried(AT_SURFACE, p)%length > 0.0_dp) so_far%surface_count = so_far%surface_count + 1
+      call place_candidates(cells, parts(p), tried(number + 1:number + parts(p)%candidates))
+      number = number + parts(p)%candidates
     end do
-    call evaluate_candidates(field, measure, tried, normal, info)
-    if (info%failed()) return
-
-    so_far%best = max(so_far%best, maxval(tried%value))
-    so_far%surface_best = max(so_far%surface_best, maxval(tried(AT_SURFACE, :)%value))
-    do p = 1, size(parts)
-      do c = 1, CANDIDATES
-        if (tried(c, p)%value < max(0.0_dp, START_SHARE*so_far%best)) cycle
-        count = count + 1
-        list(count) = tried(c, p)
-      end do
-      if (surveys(p)%split_axis == 0) cycle
-      seen = maxval(tried(:, p)%value) + hidden_share*max(0.0_dp, surveys(p)%pressure - abs(normal(1, p)))
-      if (seen >= HALVED_SHARE*so_far%best) call halve(cells, surveys(p), parts(p), order, halves, number)
-    end do
-    if (count > size(list) - CANDIDATES*PORTION) call thin_out(list, count, info)
-  end subroutine try_parts
-
-  !> Add the best places of the whole surface: pressure beside a cell may stress it more than its own does.
-  subroutine add_surface(field, cells, measure, list, count, info)
-    class(stress_field), intent(inout) :: field
-    type(pressed_cells), intent(in) :: cells
-    integer, intent(in) :: measure
-    type(peak_start), intent(inout) :: list(:)
-    integer, intent(inout) :: count
-    type(fuge_info), intent(inout) :: info
-    type(surface_place), allocatable :: best(:)
-    integer :: k
-
-    call scan_surface(field, cells, measure, best, info)
-    call thin_out(list, count, info)
-    if (info%failed()) return
-    do k = 1, size(best)
-      if (.not. best(k)%value > 0.0_dp) cycle
-      if (count == size(list)) call thin_out(list, count, info)
-      if (info%failed()) return
-      count = count + 1
-      list(count) = peak_start(best(k)%place, best(k)%value, best(k)%length, 0.0_dp, .not. best(k)%continuous)
-    end do
-  end subroutine add_surface
-
-  pure function surface_is_weak(so_far)
-    type(tally), intent(in) :: so_far
-    logical :: surface_is_weak
-
-    surface_is_weak = so_far%surface_count >= FIRST_SURFACE .and. so_far%surface_best < SURFACE_SHARE*so_far%best
-  end function surface_is_weak
-
-  !> The values of the candidates that have a length, and the stress zz there.
-  subroutine evaluate_candidates(field, measure, tried, normal, info)
-    class(stress_field), intent(inout) :: field
-    integer, intent(in) :: measure
-    type(peak_start), intent(inout) :: tried(:, :)
-    real(dp), intent(out) :: normal(:, :)
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: place(:, :), value(:), zz(:)
-    integer :: c, p, stat, total
-
-    normal = 0.0_dp
-    total = count(tried%length > 0.0_dp)
-    allocate (place(3, total), value(total), zz(total), stat=stat)
-    call require_memory(stat, '', total, 'places of the search', info)
-    if (stat /= 0) return
-    total = 0
-    do p = 1, size(tried, 2)
-      do c = 1, CANDIDATES
-        if (.not. tried(c, p)%length > 0.0_dp) cycle
-        total = total + 1
-        place(:, total) = tried(c, p)%place
-      end do
-    end do
-    call evaluate_measure(field, measure, place, value, zz, info)
-    total = 0
-    do p = 1, size(tried, 2)
-      do c = 1, CANDIDATES
-        if (.not. tried(c, p)%length > 0.0_dp) cycle
-        total = total + 1
-        tried(c, p)%value = value(total)
-        normal(c, p) = zz(total)
-      end do
-    end do
-  end subroutine evaluate_candidates
+  end subroutine list_candidates
 
   !> Extent and pressure of the cells `which`.
-  pure function survey_of(cells, which) result(found)
+  pure subroutine survey(cells, which, found)
     type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: which(:)
-    type(survey) :: found
-    real(dp) :: bounds(4), extent(2), widest
-    integer :: axis, k
+    type(part), intent(inout) :: found
+    real(dp) :: low, high, extent(2), widest
+    integer :: axis
 
     widest = 0.0_dp
-    extent = 0.0_dp
+    found%split_axis = 0
     do axis = 1, cells%axes
-      bounds = bounds_of(cells, which, axis)
-      extent(axis) = bounds(2) - bounds(1)
-      found%middle(axis) = bounds(1) + 0.5_dp*extent(axis)
-      if (bounds(4) - bounds(3) <= widest) cycle
-      widest = bounds(4) - bounds(3)
+      associate (centre => cells%centre(axis, which), width => cells%width(axis, which))
+        low = minval(centre - 0.5_dp*width)
+        extent(axis) = maxval(centre + 0.5_dp*width) - low
+        found%middle(axis) = low + 0.5_dp*extent(axis)
+        low = minval(centre)
+        high = maxval(centre)
+      end associate
+      if (high - low <= widest) cycle
+      widest = high - low
       found%split_axis = axis
-      found%split_at = bounds(3) + 0.5_dp*widest
+      found%split_at = low + 0.5_dp*widest
     end do
     if (cells%axes == 1) extent(2) = extent(1)
     found%length = min(sqrt(extent(1))*sqrt(extent(2)), LONGEST*minval(extent))
-    found%strongest = which(1)
-    do k = 2, size(which)
-      if (abs(cells%pressure(which(k))) > abs(cells%pressure(found%strongest))) found%strongest = which(k)
-    end do
-    found%pressure = abs(cells%pressure(found%strongest))
-  end function survey_of
+    found%strongest = which(maxloc(abs(cells%pressure(which)), dim=1))
+    found%candidates = 1
+    if (found%split_axis == 0) found%candidates = DEPTHS + merge(0, 2*cells%axes, cells%continuous)
+  end subroutine survey
 
-  !> Along an axis: the least and the greatest coordinate of the cells, and of their middles.
-  pure function bounds_of(cells, which, axis) result(bounds)
+  !> Below the middle of a part; of a single cell at several depths, and where the pressure jumps below the middles of
+  !> its edges, at the least depth.
+  pure subroutine place_candidates(cells, found, list)
     type(pressed_cells), intent(in) :: cells
-    integer, intent(in) :: which(:), axis
-    real(dp) :: bounds(4)
-    real(dp) :: centre, half
-    integer :: k
-
-    bounds = huge(bounds)*[1, -1, 1, -1]
-    do k = 1, size(which)
-      centre = cells%centre(axis, which(k))
-      half = 0.5_dp*cells%width(axis, which(k))
-      bounds = [min(bounds(1), centre - half), max(bounds(2), centre + half), min(bounds(3), centre), &
-                max(bounds(4), centre)]
-    end do
-  end function bounds_of
-
-  !> The candidates of a part, those without a `length` being left out: below its middle, for a single cell at three
-  !> depths and below its edges, and the middle of its `strongest` cell at the surface unless that was `tried`.
-  pure function candidates_of(cells, found, tried) result(list)
-    type(pressed_cells), intent(in) :: cells
-    type(survey), intent(in) :: found
-    integer, intent(in) :: tried
-    type(peak_start) :: list(CANDIDATES)
-    integer :: c
-
-    list%least_depth = cells%least_depth(found%strongest)
-    do c = 1, merge(DEPTHS, 1, found%split_axis == 0)
-      list(c)%length = found%length*DEPTH_RATIO*0.5_dp**(c - 1)
-      list(c)%place(:2) = found%middle
-      list(c)%place(3) = max(list(c)%least_depth, list(c)%length)
-    end do
-    if (found%split_axis == 0 .and. .not. cells%continuous) &
-      list(AT_SURFACE + 1:AT_SURFACE + 2*cells%axes) = edges_of(cells, found%strongest)
-    if (found%strongest == tried) return
-    list(AT_SURFACE)%length = cells%size_of(found%strongest)
-    list(AT_SURFACE)%place(:cells%axes) = cells%centre(:, found%strongest)
-    list(AT_SURFACE)%fixed = .not. cells%continuous
-  end function candidates_of
-
-  !> The candidates below the middles of the edges of cell `k`, at the least depth.
-  pure function edges_of(cells, k) result(list)
-    type(pressed_cells), intent(in) :: cells
-    integer, intent(in) :: k
-    type(peak_start) :: list(2*cells%axes)
+    type(part), intent(in) :: found
+    type(peak_start), intent(inout) :: list(:)
     integer :: axis, c
 
-    list%least_depth = cells%least_depth(k)
-    list%length = cells%least_depth(k)
+    list%least_depth = cells%least_depth(found%strongest)
     do c = 1, size(list)
-      axis = (c + 1)/2
-      list(c)%place(:cells%axes) = cells%centre(:, k)
-      list(c)%place(axis) = cells%centre(axis, k) + merge(-0.5_dp, 0.5_dp, mod(c, 2) == 1)*cells%width(axis, k)
-      list(c)%place(3) = cells%least_depth(k)
+      list(c)%place(:2) = found%middle
+      if (c <= DEPTHS) then
+        list(c)%length = found%length*DEPTH_RATIO*0.5_dp**(c - 1)
+        list(c)%place(3) = max(list(c)%least_depth, list(c)%length)
+      else
+        axis = (c - DEPTHS + 1)/2
+        list(c)%length = list(c)%least_depth
+        list(c)%place(axis) = found%middle(axis) + merge(-0.5_dp, 0.5_dp, mod(c, 2) == 0) &
+                              *cells%width(axis, found%strongest)
+        list(c)%place(3) = list(c)%least_depth
+      end if
     end do
-  end function edges_of
+  end subroutine place_candidates
 
-  !> Put the cells beyond the middle of their extent last, and add both halves to the list, without the one that is the
-  !> mirror image of cells elsewhere.
-  pure subroutine halve(cells, found, whole, order, halves, number)
+  !> Find the values of candidates, those of `parts` if they are given, and add the good ones to the starts.
+  subroutine add_candidates(field, cells, measure, tried, starts, info, parts)
+    class(stress_field), intent(in) :: field
     type(pressed_cells), intent(in) :: cells
-    type(survey), intent(in) :: found
+    integer, intent(in) :: measure
+    type(peak_start), intent(inout) :: tried(:)
+    type(peak_start), allocatable, intent(inout) :: starts(:)
+    type(fuge_info), intent(inout) :: info
+    type(part), intent(inout), optional :: parts(:)
+    real(dp), allocatable :: place(:, :), value(:), normal(:)
+    real(dp) :: best
+    integer :: k, number, stat
+
+    if (info%failed()) return
+    allocate (place(3, size(tried)), value(size(tried)), normal(size(tried)), stat=stat)
+    call require_memory(stat, '', size(tried), 'places of the search', info)
+    if (stat /= 0) return
+    do k = 1, size(tried)
+      place(:, k) = tried(k)%place
+    end do
+    call evaluate_measure(field, cells, measure, place, value, normal, info)
+    if (info%failed()) return
+    tried%value = value
+    if (present(parts)) then
+      number = 0
+      do k = 1, size(parts)
+        parts(k)%normal = normal(number + 1)
+        parts(k)%best = maxval(value(number + 1:number + parts(k)%candidates))
+        number = number + parts(k)%candidates
+      end do
+    end if
+    best = max(maxval(value), maxval(starts%value))
+    starts = [pack(starts, starts%value >= START_SHARE*best), pack(tried, value >= START_SHARE*best)]
+  end subroutine add_candidates
+
+  !> The halves of the parts below which there may be more than the `best` value. FUGE_ERR_MEMORY.
+  pure subroutine halve_parts(cells, best, order, parts, info)
+    type(pressed_cells), intent(in) :: cells
+    real(dp), intent(in) :: best
+    integer, intent(inout) :: order(:)
+    type(part), allocatable, intent(inout) :: parts(:)
+    type(fuge_info), intent(inout) :: info
+    type(part), allocatable :: halves(:)
+    real(dp) :: hidden_share
+    integer :: middle, number, p, stat
+
+    allocate (halves(2*size(parts)), stat=stat)
+    call require_memory(stat, '', size(parts), 'parts of the search', info)
+    if (stat /= 0) return
+    hidden_share = UNSEEN_SHARE*max(1.0_dp, cells%surface_factor)
+    if (minval(cells%pressure) < 0.0_dp .and. maxval(cells%pressure) > 0.0_dp) hidden_share = 2.0_dp*hidden_share
+    number = 0
+    do p = 1, size(parts)
+      if (parts(p)%split_axis == 0) cycle
+      if (parts(p)%best + hidden_share*max(0.0_dp, abs(cells%pressure(parts(p)%strongest)) - abs(parts(p)%normal)) &
+          < HALVED_SHARE*best) cycle
+      call divide(cells, parts(p), order(parts(p)%first:parts(p)%last), middle)
+      middle = parts(p)%first + middle - 1
+      if (middle < parts(p)%first .or. middle >= parts(p)%last) cycle
+      number = number + 1
+      halves(number) = part(first=middle + 1, last=parts(p)%last)
+      ! The other one may be the mirror image of cells elsewhere.
+      if (cells%symmetric(parts(p)%split_axis) &
+          .and. all(cells%centre(parts(p)%split_axis, order(parts(p)%first:middle)) < 0.0_dp)) cycle
+      number = number + 1
+      halves(number) = part(first=parts(p)%first, last=middle)
+    end do
+    parts = halves(:number)
+  end subroutine halve_parts
+
+  !> Put the cells beyond the middle of their extent last in the list `order`, after `middle` others.
+  pure subroutine divide(cells, whole, order, middle)
+    type(pressed_cells), intent(in) :: cells
     type(part), intent(in) :: whole
     integer, intent(inout) :: order(:)
-    type(part), intent(inout) :: halves(:)
-    integer, intent(inout) :: number
-    integer :: k, moved, next
+    integer, intent(out) :: middle
+    integer :: k, moved
 
-    next = whole%first
-    do k = whole%first, whole%last
-      if (cells%centre(found%split_axis, order(k)) > found%split_at) cycle
-      moved = order(next)
-      order(next) = order(k)
+    middle = 0
+    do k = 1, size(order)
+      if (cells%centre(whole%split_axis, order(k)) > whole%split_at) cycle
+      middle = middle + 1
+      moved = order(middle)
+      order(middle) = order(k)
       order(k) = moved
-      next = next + 1
     end do
-    if (next == whole%first .or. next > whole%last) return
-    number = number + 1
-    halves(number) = part(next, whole%last, whole%tried)
-    if (cells%symmetric(found%split_axis) &
-        .and. all(cells%centre(found%split_axis, order(whole%first:next - 1)) < 0.0_dp)) return
-    number = number + 1
-    halves(number) = part(whole%first, next - 1, whole%tried)
-  end subroutine halve
+  end subroutine divide
 
-  !> Keep the best starts, best first, without those next to a better one, and only the best of those that stay where
-  !> they are: at most MOST_STARTS. FUGE_ERR_MEMORY.
-  pure subroutine thin_out(list, count, info)
-    type(peak_start), intent(inout) :: list(:)
-    integer, intent(inout) :: count
+  !> Keep the best starts, best first, without those next to a better one: at most MOST_STARTS. FUGE_ERR_MEMORY.
+  pure subroutine thin_out(starts, info)
+    type(peak_start), allocatable, intent(inout) :: starts(:)
     type(fuge_info), intent(inout) :: info
     type(peak_start), allocatable :: kept(:)
     integer, allocatable :: order(:)
-    real(dp) :: best
-    logical :: any_fixed
     integer :: k, number, stat
 
-    if (count == 0) return
-    best = maxval(list(:count)%value)
-    allocate (order(count), kept(MOST_STARTS), stat=stat)
-    call require_memory(stat, 'the order of', count, 'candidates of the search', info)
+    allocate (order(size(starts)), kept(min(size(starts), MOST_STARTS)), stat=stat)
+    call require_memory(stat, 'the order of', size(starts), 'candidates of the search', info)
     if (stat /= 0) return
-    order = [(k, k=1, count)]
-    call heap_sort(-list(:count)%value, order)
+    order = [(k, k=1, size(starts))]
+    call heap_sort(-starts%value, order)
     number = 0
-    any_fixed = .false.
-    do k = 1, count
-      if (number == MOST_STARTS) exit
-      if (list(order(k))%value < START_SHARE*best) exit
-      if (list(order(k))%fixed .and. any_fixed) cycle
-      if (is_next_to_one(list(order(k)), kept(:number))) cycle
-      any_fixed = any_fixed .or. list(order(k))%fixed
+    do k = 1, size(starts)
+      if (number == size(kept) .or. starts(order(k))%value < 0.0_dp) exit
+      if (is_next_to_one(starts(order(k)), kept(:number))) cycle
       number = number + 1
-      kept(number) = list(order(k))
+      kept(number) = starts(order(k))
     end do
-    list(:number) = kept(:number)
-    count = number
+    starts = kept(:number)
   end subroutine thin_out
 
   pure function is_next_to_one(start, kept)

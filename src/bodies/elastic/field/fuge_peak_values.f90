@@ -1,7 +1,8 @@
-!> The measure of a field of stress at many places, in portions.
+!> The von Mises or Tresca stress of a field at many places.
 module fuge_peak_values
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
+  use fuge_pressed_cells, only: pressed_cells
   use fuge_status, only: fuge_info, require_memory
   use fuge_stress_field, only: stress_field
   use fuge_stress_measures, only: fuge_tresca, fuge_von_mises
@@ -9,54 +10,52 @@ module fuge_peak_values
   implicit none
   private
 
-  public :: evaluate_measure, measure_all
-
-  !> Places in one call of the field, which may build a tree of the cells in each.
-  integer, parameter :: PORTION = 2**15
+  public :: evaluate_measure, measured
 
 contains
 
-  !> `place` (3, places); out: `value` (places) of the `measure`, -1 where it is not finite, and the stress zz in
-  !> `normal` (places). Errors: those of the field, FUGE_ERR_MEMORY.
-  subroutine evaluate_measure(field, measure, place, value, normal, info)
-    class(stress_field), intent(inout) :: field
+  !> `place` (3, places), or its mirror image if the `cells` are symmetric; out: `value` (places) of the `measure`, -1
+  !> where it is not finite, and the stress zz in `normal` (places). Errors: those of the field, FUGE_ERR_MEMORY.
+  subroutine evaluate_measure(field, cells, measure, place, value, normal, info)
+    class(stress_field), intent(in) :: field
+    type(pressed_cells), intent(in) :: cells
     integer, intent(in) :: measure
     real(dp), intent(in) :: place(:, :)
     real(dp), intent(out) :: value(:), normal(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: stress(:, :)
-    integer :: first, last, stat
+    real(dp), allocatable :: stress(:, :), mirrored(:, :)
+    logical, allocatable :: below(:)
+    integer :: axis, stat
 
     value = -1.0_dp
     normal = 0.0_dp
     if (info%failed() .or. size(value) == 0) return
-    allocate (stress(6, min(PORTION, size(value))), stat=stat)
-    call require_memory(stat, 'the stresses at the places of the search', info)
+    allocate (stress(6, size(value)), mirrored(3, size(value)), below(size(value)), stat=stat)
+    call require_memory(stat, 'the stresses at', size(value), 'places of the search', info)
     if (stat /= 0) return
-    do first = 1, size(value), PORTION
-      last = min(first + PORTION - 1, size(value))
-      call field%stresses(place(:, first:last), stress(:, :last - first + 1), info)
-      if (info%failed()) return
-      call measure_all(measure, stress(:, :last - first + 1), value(first:last), normal(first:last))
+    below = .false.
+    mirrored = place
+    do axis = 1, 2
+      if (cells%symmetric(axis)) mirrored(axis, :) = abs(place(axis, :))
     end do
+    call field%find_stress(mirrored, below, stress, info)
+    if (info%failed()) return
+    value = measured(measure, stress)
+    where (value >= 0.0_dp) normal = stress(3, :)
   end subroutine evaluate_measure
 
-  !> The values and the stresses zz of `stress` (6, places), -1 and 0 where the value is not finite.
-  pure subroutine measure_all(measure, stress, value, normal)
+  !> The values of the measure of `stress` (6, places), -1 where it is not finite.
+  pure function measured(measure, stress) result(value)
     integer, intent(in) :: measure
     real(dp), intent(in) :: stress(:, :)
-    real(dp), intent(out) :: value(:), normal(:)
+    real(dp) :: value(size(stress, 2))
 
     if (measure == FUGE_MEASURE_TRESCA) then
       value = fuge_tresca(stress)
     else
       value = fuge_von_mises(stress)
     end if
-    normal = stress(3, :)
-    where (.not. ieee_is_finite(value))
-      value = -1.0_dp
-      normal = 0.0_dp
-    end where
-  end subroutine measure_all
+    where (.not. ieee_is_finite(value)) value = -1.0_dp
+  end function measured
 
 end module fuge_peak_values

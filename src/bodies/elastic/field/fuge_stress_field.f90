@@ -1,28 +1,29 @@
-!> A field of stress under a contact, as the search for its largest value sees it.
+!> What knows the stresses in a body, as the search for the largest one sees it.
 module fuge_stress_field
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
   implicit none
   private
 
-  !> Something that knows the stresses in a body at any depth z >= 0.
   type, abstract, public :: stress_field
   contains
-    procedure(field_stresses), deferred :: stresses
+    !> Stresses at places.
+    procedure(stresses_at_places), deferred :: find_stress
   end type stress_field
 
   abstract interface
-    !> `stress` (6, points): xx, yy, zz, yz, xz, xy at `place` (3, points), x, y, z in the caller's coordinates.
+    !> `values` (6, points): xx, yy, zz, yz, xz, xy at `place` (3, points), x, y, z >= 0; tension is positive.
     !>
-    !> Evaluating may fill what a field stores for the next points.
-    !> Fields in a plane have y = 0 and no yz, xy; those with an axis take x as the radius. Tension is positive.
-    subroutine field_stresses(self, place, stress, info)
+    !> Fields in a plane have y = 0 and no yz, xy; those about an axis take x >= 0 as the radius. `below` (points): at
+    !> an interface of layers, just below it.
+    subroutine stresses_at_places(self, place, below, values, info)
       import :: stress_field, dp, fuge_info
-      class(stress_field), intent(inout) :: self
+      class(stress_field), intent(in) :: self
       real(dp), intent(in) :: place(:, :)
-      real(dp), intent(out) :: stress(:, :)
-      type(fuge_info), intent(inout) :: info
-    end subroutine field_stresses
+      logical, intent(in) :: below(:)
+      real(dp), intent(inout) :: values(:, :)
+      type(fuge_info), intent(out) :: info
+    end subroutine stresses_at_places
   end interface
 
 end module fuge_stress_field

@@ -15,7 +15,7 @@ module fuge_stress_measures
   private
 
   public :: fuge_halfplane_tensor, fuge_round_tensor, fuge_principal_stresses
-  public :: fuge_von_mises, fuge_tresca, fuge_mean_stress, check_plane
+  public :: fuge_von_mises, fuge_tresca, fuge_mean_stress
 
   !> Components of a tensor, of a stress in a plane, and of one about an axis.
   integer, parameter :: SIX = 6, IN_PLANE = 3, ABOUT_AXIS = 4

@@ -168,16 +168,19 @@ contains
   end subroutine find_grid_displacement
 
   subroutine find_largest(self, measure, peak, info)
-    use fuge_halfplane_peak_search, only: fuge_halfplane_peak
+    use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
+    use fuge_peak_search, only: find_peak
+    use fuge_pressed_cells, only: pressed_cells
     class(fuge_halfplane_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
+    type(pressed_cells) :: cells
 
     call require_places(self, info)
-    if (info%failed()) return
-    call fuge_halfplane_peak(self%loads%x, self%loads%width, self%loads%force, self%loads%element, self%plane_state, &
-                             self%poisson, measure, peak, info, self%loads%symmetric)
+    if (.not. info%failed()) call self%loads%find_pressed(cells, info)
+    if (self%plane_state == FUGE_PLANE_STRAIN) cells%surface_factor = 1.0_dp - 2.0_dp*self%poisson
+    call find_peak(self, cells, measure, peak, info)
   end subroutine find_largest
 
 end module fuge_field_of_halfplane

@@ -16,6 +16,7 @@ module fuge_halfplane_loads
     procedure :: cell_width
     procedure :: has_places
     procedure :: cells
+    procedure :: find_pressed
   end type halfplane_loads
 
 contains
@@ -84,5 +85,37 @@ contains
 
     has_places = self%boundary == FUGE_FREE
   end function has_places
+
+  !> The cells with a force, of a symmetric line those on both sides. FUGE_ERR_MEMORY.
+  pure subroutine find_pressed(self, pressed, info)
+    use fuge_cell_elements, only: FUGE_HAT
+    use fuge_pressed_cells, only: allocate_cells, is_own_image, pressed_cells
+    class(halfplane_loads), intent(in) :: self
+    type(pressed_cells), intent(inout) :: pressed
+    type(fuge_info), intent(inout) :: info
+    logical :: mirrored(size(self%force))
+    integer :: k, number
+
+    mirrored = self%symmetric .and. .not. is_own_image(self%x, self%width)
+    number = count(abs(self%force) > 0.0_dp) + count(abs(self%force) > 0.0_dp .and. mirrored)
+    call allocate_cells(1, number, pressed, info)
+    if (info%failed()) return
+    pressed%continuous = self%element == FUGE_HAT
+    pressed%symmetric(1) = self%symmetric
+    number = 0
+    do k = 1, size(self%force)
+      if (.not. abs(self%force(k)) > 0.0_dp) cycle
+      number = number + 1
+      pressed%centre(1, number) = self%x(k)
+      pressed%width(1, number) = self%width(k)
+      pressed%pressure(number) = self%force(k)/self%width(k)
+      if (.not. mirrored(k)) cycle
+      pressed%pressure(number) = 0.5_dp*pressed%pressure(number)
+      number = number + 1
+      pressed%centre(1, number) = -self%x(k)
+      pressed%width(1, number) = self%width(k)
+      pressed%pressure(number) = pressed%pressure(number - 1)
+    end do
+  end subroutine find_pressed
 
 end module fuge_halfplane_loads

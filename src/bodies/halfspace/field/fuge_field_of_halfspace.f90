@@ -140,16 +140,19 @@ contains
   end subroutine find_grid_displacement
 
   subroutine find_largest(self, measure, peak, info)
-    use fuge_halfspace_peak_search, only: fuge_halfspace_peak
+    use fuge_peak_search, only: find_peak
+    use fuge_pressed_cells, only: pressed_cells
     class(fuge_halfspace_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
+    type(pressed_cells) :: cells
 
     call require_places(self, info)
-    if (info%failed()) return
-    call fuge_halfspace_peak(self%loads%x, self%loads%y, self%loads%width_x, self%loads%width_y, self%loads%force, &
-                             self%poisson, measure, peak, info, self%loads%symmetric(1), self%loads%symmetric(2))
+    if (.not. info%failed()) call self%loads%find_pressed(cells, info)
+    cells%surface_factor = 1.0_dp - 2.0_dp*self%poisson
+    if (cells%surface_counts()) call cells%find_surface(info)
+    call find_peak(self, cells, measure, peak, info)
   end subroutine find_largest
 
 end module fuge_field_of_halfspace

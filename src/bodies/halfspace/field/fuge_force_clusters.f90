@@ -9,8 +9,8 @@
 module fuge_force_clusters
   use fuge_constants, only: PI
   use fuge_gauss_legendre, only: gauss_rule
+  use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
-  use fuge_median_split, only: sort_by_place
   use fuge_pressed_area, only: pressed_area
   implicit none
   private
@@ -25,7 +25,7 @@ module fuge_force_clusters
   real(dp), parameter :: CLASS_DISTANCE(CLASSES) = &
     [2.77_dp, 3.13_dp, 3.64_dp, 4.9_dp, 7.46_dp, 11.1_dp, 19.3_dp, 43.7_dp]
   !> A cluster of at most LEAST loads is not divided.
-  integer, parameter, public :: LEAST = 32
+  integer, parameter :: LEAST = 32
   !> Nodes of the Gauss rule that is exact for the polynomials of the finest grid.
   integer, parameter :: NODES = FINEST/2
 
@@ -83,13 +83,29 @@ contains
     order = [(k, k=1, loads%count)]
     places(:, 1) = loads%x
     places(:, 2) = loads%y
-    ! Lists of the last level have `most` loads or one less.
-    call sort_by_place(places, most - 1, order)
+    call sort_by_halves(places, clusters%levels, order)
     call loads%reorder(order, stat)
     if (stat /= 0) return
     call set_tables(clusters)
     call form_cluster(loads, clusters, 1, 1, loads%count)
   end subroutine new_force_clusters
+
+  !> Reorder the indices `order` of `places` (n, 2) by halves, and these again, each time along the direction of the
+  !> greatest extent.
+  pure recursive subroutine sort_by_halves(places, levels, order)
+    real(dp), intent(in) :: places(:, :)
+    integer, intent(in) :: levels
+    integer, intent(inout) :: order(:)
+    real(dp) :: extent(2)
+    integer :: k, middle
+
+    if (levels < 1) return
+    extent = [(maxval(places(order, k)) - minval(places(order, k)), k=1, 2)]
+    call heap_sort(places(:, maxloc(extent, dim=1)), order)
+    middle = (size(order) + 1)/2
+    call sort_by_halves(places, levels - 1, order(:middle))
+    call sort_by_halves(places, levels - 1, order(middle + 1:))
+  end subroutine sort_by_halves
 
   !> One cluster of all loads, whose sums take these one by one. `stat` as in an allocate statement.
   pure subroutine set_single_cluster(loads, clusters, stat)
@@ -211,22 +227,22 @@ contains
     end do
   end subroutine find_polynomials
 
-  !> The classes, along x and y, of the coarsest grid that stands for cluster `k` at all points between `low` (3) and
-  !> `high` (3), in z, too; one is 0 if they are too near for all.
-  pure function cluster_classes(clusters, k, low, high) result(size_class)
+  !> The classes, along x and y, of the coarsest grid that stands for cluster `k` at a place; one is 0 if it is too near
+  !> for all.
+  pure function cluster_classes(clusters, k, place) result(size_class)
     type(force_clusters), intent(in) :: clusters
     integer, intent(in) :: k
-    real(dp), intent(in) :: low(3), high(3)
+    real(dp), intent(in) :: place(3)
     integer :: size_class(2)
     real(dp) :: middle(2), beside(2)
 
     size_class = 0
     if (clusters%levels < 1) return
-    associate (centre => clusters%box(:2, k), half => clusters%box(3:, k))
-      middle = max(low(:2) - centre, centre - high(:2), 0.0_dp)
+    associate (half => clusters%box(3:, k))
+      middle = abs(place(:2) - clusters%box(:2, k))
       beside = max(middle - half, 0.0_dp)
-      size_class(1) = side_class(middle(1)**2 + beside(2)**2 + low(3)**2, half(1))
-      size_class(2) = side_class(middle(2)**2 + beside(1)**2 + low(3)**2, half(2))
+      size_class(1) = side_class(middle(1)**2 + beside(2)**2 + place(3)**2, half(1))
+      size_class(2) = side_class(middle(2)**2 + beside(1)**2 + place(3)**2, half(2))
     end associate
   end function cluster_classes
 

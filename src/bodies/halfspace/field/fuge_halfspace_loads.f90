@@ -16,7 +16,12 @@ module fuge_halfspace_loads
     procedure :: cell_widths
     procedure :: has_places
     procedure :: cells
+    procedure :: find_pressed
   end type halfspace_loads
+
+  !> Rectangles longer than LONGEST widths are cut for the search, into at most MOST_PIECES pieces.
+  real(dp), parameter :: LONGEST = 4.0_dp
+  integer, parameter :: MOST_PIECES = 32
 
 contains
 
@@ -91,5 +96,79 @@ contains
 
     has_places = self%boundary == FUGE_FREE
   end function has_places
+
+  !> The rectangles with a force, of a symmetric area those on all sides. Long ones are cut, because the largest stress
+  !> may lie below any part of them. FUGE_ERR_MEMORY.
+  pure subroutine find_pressed(self, pressed, info)
+    use fuge_pressed_cells, only: allocate_cells, pressed_cells
+    class(halfspace_loads), intent(in) :: self
+    type(pressed_cells), intent(inout) :: pressed
+    type(fuge_info), intent(inout) :: info
+    integer :: i, images(2), j, k, number
+
+    number = 0
+    do k = 1, size(self%force)
+      if (abs(self%force(k)) > 0.0_dp) number = number + product(images_of(self, k))*pieces_of(self, k)
+    end do
+    call allocate_cells(2, number, pressed, info)
+    if (info%failed()) return
+    pressed%symmetric = self%symmetric
+    number = 0
+    do k = 1, size(self%force)
+      if (.not. abs(self%force(k)) > 0.0_dp) cycle
+      images = images_of(self, k)
+      do j = 1, images(2)
+        do i = 1, images(1)
+          call cut([self%x(k), self%y(k)]*[3 - 2*i, 3 - 2*j], [self%width_x(k), self%width_y(k)], pieces_of(self, k), &
+                   number, pressed)
+        end do
+      end do
+      i = product(images)*pieces_of(self, k)
+      pressed%pressure(number - i + 1:number) = self%force(k)/self%width_x(k)/self%width_y(k)/real(product(images), dp)
+    end do
+  end subroutine find_pressed
+
+  !> The number of images of rectangle `k` along x and y, itself included.
+  pure function images_of(self, k) result(images)
+    use fuge_pressed_cells, only: is_own_image
+    class(halfspace_loads), intent(in) :: self
+    integer, intent(in) :: k
+    integer :: images(2)
+
+    images = merge(2, 1, self%symmetric .and. .not. is_own_image([self%x(k), self%y(k)], &
+                                                                  [self%width_x(k), self%width_y(k)]))
+  end function images_of
+
+  !> Into how many pieces rectangle `k` is cut.
+  pure function pieces_of(self, k) result(pieces)
+    class(halfspace_loads), intent(in) :: self
+    integer, intent(in) :: k
+    integer :: pieces
+    real(dp) :: width(2)
+
+    width = [self%width_x(k), self%width_y(k)]
+    pieces = ceiling(min(real(MOST_PIECES, dp), maxval(width)/LONGEST/minval(width)))
+    ! Odd, because one of the middles is that of the whole.
+    if (modulo(pieces, 2) == 0) pieces = pieces + 1
+  end function pieces_of
+
+  !> Add the pieces of a rectangle.
+  pure subroutine cut(centre, width, pieces, number, pressed)
+    use fuge_pressed_cells, only: pressed_cells
+    real(dp), intent(in) :: centre(2), width(2)
+    integer, intent(in) :: pieces
+    integer, intent(inout) :: number
+    type(pressed_cells), intent(inout) :: pressed
+    integer :: along, i
+
+    along = maxloc(width, dim=1)
+    do i = 1, pieces
+      number = number + 1
+      pressed%centre(:, number) = centre
+      pressed%width(:, number) = width
+      pressed%width(along, number) = width(along)/real(pieces, dp)
+      pressed%centre(along, number) = centre(along) + 0.5_dp*real(2*i - 1 - pieces, dp)*pressed%width(along, number)
+    end do
+  end subroutine cut
 
 end module fuge_halfspace_loads

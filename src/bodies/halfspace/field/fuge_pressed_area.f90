@@ -38,9 +38,6 @@ module fuge_pressed_area
     procedure :: box_around
     procedure :: is_far_from
     procedure :: seen_from
-    procedure :: place_of
-    procedure :: width_of
-    procedure :: pressure_of
   end type pressed_area
 
 contains
@@ -184,35 +181,6 @@ contains
     part%y = edge_distances(y, self%y(k), self%half_y(k))
     part%half = [self%half_x(k), self%half_y(k)]
   end function seen_from
-
-  !> The centre of rectangle `k`, x and y in the caller's units.
-  pure function place_of(self, k) result(place)
-    class(pressed_area), intent(in) :: self
-    integer, intent(in) :: k
-    real(dp) :: place(2)
-
-    place = scale([self%x(k), self%y(k)], self%unit)
-  end function place_of
-
-  !> The widths of rectangle `k` along x and y, in the caller's units.
-  pure function width_of(self, k) result(width)
-    class(pressed_area), intent(in) :: self
-    integer, intent(in) :: k
-    real(dp) :: width(2)
-
-    width = scale([self%half_x(k), self%half_y(k)], self%unit + 1)
-  end function width_of
-
-  !> The pressure of `rectangles` equal shares like that of rectangle `k`, in the caller's units.
-  pure function pressure_of(self, k, rectangles) result(pressure)
-    class(pressed_area), intent(in) :: self
-    integer, intent(in) :: k, rectangles
-    real(dp) :: pressure
-    real(dp) :: width(2)
-
-    width = self%width_of(k)
-    pressure = scale(self%force(k)*real(rectangles, dp), self%force_unit)/width(1)/width(2)
-  end function pressure_of
 
   !> A coordinate minus those of the upper and the lower edge, rounded once; zero at an edge.
   pure function edge_distances(x, centre, half) result(distance)

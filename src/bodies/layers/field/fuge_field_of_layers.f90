@@ -7,7 +7,7 @@ module fuge_field_of_layers
   use fuge_kinds, only: dp
   use fuge_layered_body_type, only: copy_layers, fuge_layered_body
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_UNSUPPORTED
-  use fuge_stress_peak_type, only: fuge_interface_stress, fuge_stress_peak, FUGE_PEAK_INSIDE, FUGE_PEAK_SURFACE
+  use fuge_stress_peak_type, only: fuge_interface_stress, fuge_stress_peak
   implicit none
   private
 
@@ -207,32 +207,22 @@ contains
   end subroutine line_grid_displacement
 
   subroutine line_largest(self, measure, peak, info)
-    use fuge_layered_peak_search, only: fuge_layer_peak, fuge_layered_halfplane_peak
     class(fuge_layered_line_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
-    type(fuge_layer_peak) :: found
 
-    call require_grid(self, info)
-    if (.not. info%failed()) call fuge_layered_halfplane_peak(self%body, self%loads%cell_width(), self%loads%force, &
-                                                              self%loads%element, self%loads%boundary, measure, found, &
-                                                              info)
-    if (.not. info%failed()) peak = peak_below([self%loads%x(found%cell), 0.0_dp], found)
+    call find_largest(self, self%body, [self%loads%cell_width(), 0.0_dp], [self%cells, 1], self%loads%force, measure, &
+                      peak, info)
+    if (.not. info%failed()) peak%place(1) = self%loads%x(peak%cell)
   end subroutine line_largest
 
   subroutine line_interfaces(self, peaks, info)
-    use fuge_interface_peaks, only: fuge_layered_halfplane_interfaces
     class(fuge_layered_line_field), intent(in) :: self
     type(fuge_interface_stress), allocatable, intent(inout) :: peaks(:)
     type(fuge_info), intent(out) :: info
-    type(fuge_interface_stress), allocatable :: found(:)
 
-    call require_grid(self, info)
-    call make_peaks(self%body, found, info)
-    if (.not. info%failed()) call fuge_layered_halfplane_interfaces(self%body, self%loads%cell_width(), self%loads%force, &
-                                                                    self%loads%element, self%loads%boundary, found, info)
-    if (.not. info%failed()) call move_alloc(found, peaks)
+    call find_interfaces(self, self%body, peaks, info)
   end subroutine line_interfaces
 
   !> Rectangles on a body of layers; all else as of `fuge_layered_line_field` and `fuge_halfspace_field`. Ten arguments:
@@ -342,38 +332,71 @@ contains
   end subroutine area_grid_displacement
 
   subroutine area_largest(self, measure, peak, info)
-    use fuge_layered_peak_search, only: fuge_layer_peak, fuge_layered_halfspace_peak
     class(fuge_layered_area_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
-    type(fuge_layer_peak) :: found
-    real(dp) :: spacing(2)
 
-    call require_grid(self, info)
-    spacing = self%loads%cell_widths()
-    if (.not. info%failed()) call fuge_layered_halfspace_peak(self%body, self%loads%sides(1), self%loads%sides(2), &
-                                                              spacing(1), spacing(2), self%loads%force, &
-                                                              self%loads%boundary, measure, found, info)
-    if (.not. info%failed()) peak = peak_below([self%loads%x(found%cell), self%loads%y(found%cell)], found)
+    call find_largest(self, self%body, self%loads%cell_widths(), self%loads%sides, self%loads%force, measure, peak, &
+                      info)
+    if (.not. info%failed()) peak%place(:2) = [self%loads%x(peak%cell), self%loads%y(peak%cell)]
   end subroutine area_largest
 
   subroutine area_interfaces(self, peaks, info)
-    use fuge_interface_peaks, only: fuge_layered_halfspace_interfaces
     class(fuge_layered_area_field), intent(in) :: self
     type(fuge_interface_stress), allocatable, intent(inout) :: peaks(:)
     type(fuge_info), intent(out) :: info
-    type(fuge_interface_stress), allocatable :: found(:)
-    real(dp) :: spacing(2)
 
-    call require_grid(self, info)
-    call make_peaks(self%body, found, info)
-    spacing = self%loads%cell_widths()
-    if (.not. info%failed()) &
-      call fuge_layered_halfspace_interfaces(self%body, self%loads%sides(1), self%loads%sides(2), spacing(1), spacing(2), &
-                                             self%loads%force, self%loads%boundary, found, info)
-    if (.not. info%failed()) call move_alloc(found, peaks)
+    call find_interfaces(self, self%body, peaks, info)
   end subroutine area_interfaces
+
+  !> The largest stress below a grid of `sides` cells of the widths `spacing`; on a line the second one is 0.
+  subroutine find_largest(field, body, spacing, sides, force, measure, peak, info)
+    use fuge_layer_peaks, only: find_layer_peak
+    use fuge_layer_stack, only: layer_stack
+    class(fuge_field), intent(in) :: field
+    type(fuge_layered_body), intent(in) :: body
+    real(dp), intent(in) :: spacing(2), force(:)
+    integer, intent(in) :: sides(2), measure
+    type(fuge_stress_peak), intent(inout) :: peak
+    type(fuge_info), intent(out) :: info
+    type(layer_stack) :: stack
+    integer :: high(2), k, low(2)
+
+    call require_grid(field, info)
+    if (.not. info%failed()) call copy_layers(body, stack, info)
+    if (info%failed()) return
+    low = sides
+    high = -1
+    do k = 0, size(force) - 1
+      if (.not. abs(force(k + 1)) > 0.0_dp) cycle
+      low = min(low, [modulo(k, sides(1)), k/sides(1)])
+      high = max(high, [modulo(k, sides(1)), k/sides(1)])
+    end do
+    call find_layer_peak(field, stack, minval(spacing, spacing > 0.0_dp), &
+                         max(0.0_dp, maxval(real(high - low + 1, dp)*spacing)), measure, peak, info)
+  end subroutine find_largest
+
+  !> The largest stresses of the surface and of all interfaces.
+  subroutine find_interfaces(field, body, peaks, info)
+    use fuge_layer_peaks, only: find_interface_peaks
+    use fuge_layer_stack, only: layer_stack
+    class(fuge_field), intent(in) :: field
+    type(fuge_layered_body), intent(in) :: body
+    type(fuge_interface_stress), allocatable, intent(inout) :: peaks(:)
+    type(fuge_info), intent(out) :: info
+    type(fuge_interface_stress), allocatable :: found(:)
+    type(layer_stack) :: stack
+    integer :: stat
+
+    call require_grid(field, info)
+    if (.not. info%failed()) call copy_layers(body, stack, info)
+    if (info%failed()) return
+    allocate (found(body%interfaces() + 1), stat=stat)
+    call require_memory(stat, 'the stresses of', body%interfaces(), 'interfaces', info)
+    if (.not. info%failed()) call find_interface_peaks(field, stack, found, info)
+    if (.not. info%failed()) call move_alloc(found, peaks)
+  end subroutine find_interfaces
 
   !> Refuse a field that is not that of a grid.
   subroutine require_grid(field, info)
@@ -383,33 +406,5 @@ contains
     if (field%cells == 0) call report(info, FUGE_ERR_UNSUPPORTED, 'in layers the largest stresses are those below the ' &
                                       //'cells of a grid: set the field by a grid')
   end subroutine require_grid
-
-  !> Room for the surface and all interfaces; FUGE_ERR_MEMORY.
-  subroutine make_peaks(body, peaks, info)
-    type(fuge_layered_body), intent(in) :: body
-    type(fuge_interface_stress), allocatable, intent(out) :: peaks(:)
-    type(fuge_info), intent(inout) :: info
-    integer :: stat
-
-    if (info%failed()) return
-    allocate (peaks(body%interfaces() + 1), stat=stat)
-    call require_memory(stat, 'the stresses of', body%interfaces(), 'interfaces', info)
-  end subroutine make_peaks
-
-  !> The largest stress below a cell at `x`, `y`.
-  pure function peak_below(centre, found) result(peak)
-    use fuge_layered_peak_search, only: fuge_layer_peak
-    real(dp), intent(in) :: centre(2)
-    type(fuge_layer_peak), intent(in) :: found
-    type(fuge_stress_peak) :: peak
-
-    peak%value = found%value
-    peak%place = [centre(1), centre(2), found%depth]
-    peak%location = FUGE_PEAK_INSIDE
-    if (.not. found%depth > 0.0_dp) peak%location = FUGE_PEAK_SURFACE
-    peak%tensor = found%tensor
-    peak%layer = found%layer
-    peak%cell = found%cell
-  end function peak_below
 
 end module fuge_field_of_layers

@@ -37,6 +37,9 @@ module fuge_field_of_punches
     procedure :: find_largest => round_largest
   end type fuge_round_punch_field
 
+  !> Cells that stand for a pressure: of a smooth punch for each coefficient, and at least; of a round one.
+  integer, parameter :: CELLS_EACH = 4, FEWEST_CELLS = 64, ROUND_CELLS = 512
+
 contains
 
   !> The field under a punch of either kind; `plane_state` counts under a smooth one only. Errors: those of its `set`.
@@ -116,13 +119,25 @@ contains
   end subroutine smooth_displacement
 
   subroutine smooth_largest(self, measure, peak, info)
-    use fuge_halfplane_peak_search, only: fuge_smooth_peak
+    use fuge_elastic_moduli, only: FUGE_PLANE_STRAIN
+    use fuge_peak_search, only: find_peak
+    use fuge_pressed_cells, only: pressed_cells
     class(fuge_smooth_punch_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
+    type(pressed_cells) :: cells
+    integer :: number
 
-    call fuge_smooth_peak(self%contact, self%plane_state, self%poisson, measure, peak, info)
+    number = 0
+    if (allocated(self%contact%coefficients) .and. self%contact%half_width > 0.0_dp) &
+      number = max(FEWEST_CELLS, CELLS_EACH*size(self%contact%coefficients))
+    call collect_pressure(number, self%contact%half_width, cells, info)
+    if (info%failed()) return
+    cells%centre = self%contact%anchor + (self%contact%offset + cells%centre)
+    cells%pressure = self%contact%pressure(cells%centre(1, :))
+    if (self%plane_state == FUGE_PLANE_STRAIN) cells%surface_factor = 1.0_dp - 2.0_dp*self%poisson
+    call find_peak(self, cells, measure, peak, info)
   end subroutine smooth_largest
 
   !> `contact` of `fuge_solve_round_punch` or `fuge_solve_round_powers`; `young`, force per length squared, which may be
@@ -177,15 +192,75 @@ contains
     values(2, :) = 0.0_dp
   end subroutine round_displacement
 
+  !> In the tip of a cone and along an edge of the punch within the contact the pressure p is infinite like a logarithm,
+  !> and so is every stress, but not in the same ratio: in a tip rr = tt = -(1/2 + poisson) p beside zz = -p, and along
+  !> an edge tt = poisson (rr + zz). Unless poisson = 0.5 the measures are infinite with them.
   subroutine round_largest(self, measure, peak, info)
-    use fuge_round_peak_search, only: fuge_round_peak
+    use fuge_peak_search, only: find_peak, singular_peak
+    use fuge_pressed_cells, only: pressed_cells
     class(fuge_round_punch_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
+    type(pressed_cells) :: cells
+    real(dp) :: singular_radius
 
-    call fuge_round_peak(self%contact, self%poisson, measure, peak, info)
+    singular_radius = -1.0_dp
+    if (self%poisson < 0.5_dp) singular_radius = radius_of_singularity(self%contact)
+    if (singular_radius >= 0.0_dp) then
+      peak = singular_peak([singular_radius, 0.0_dp, 0.0_dp])
+      return
+    end if
+    call collect_pressure(merge(ROUND_CELLS, 0, self%contact%radius > 0.0_dp), self%contact%radius, cells, info)
+    if (info%failed()) return
+    cells%symmetric(1) = .true.
+    cells%pressure = self%contact%pressure(abs(cells%centre(1, :)))
+    cells%surface_factor = 1.0_dp - 2.0_dp*self%poisson
+    ! At the rim the stress at the surface has a cusp.
+    cells%surface = reshape([self%contact%radius], [1, 1])
+    call find_peak(self, cells, measure, peak, info)
   end subroutine round_largest
+
+  !> Where the pressure of a round punch is infinite: 0 in a tip, the radius of an edge, -1 nowhere.
+  pure function radius_of_singularity(contact) result(radius)
+    use fuge_abel_transform, only: abel_transform
+    type(fuge_round_contact), intent(in) :: contact
+    real(dp) :: radius
+    type(abel_transform) :: transform
+    integer :: k
+
+    radius = -1.0_dp
+    if (.not. contact%radius > 0.0_dp) return
+    transform = contact%abel()
+    if (abs(transform%tip) > 0.0_dp) radius = 0.0_dp
+    if (.not. allocated(transform%edges) .or. radius >= 0.0_dp) return
+    do k = 1, size(transform%edges)
+      if (transform%edges(k)%power == 1 .and. abs(transform%edges(k)%factor) > 0.0_dp) &
+        radius = contact%radius*transform%edges(k)%start
+    end do
+  end function radius_of_singularity
+
+  !> A `number` of cells for a continuous pressure from -`reach` to `reach`, narrow at both ends. FUGE_ERR_MEMORY.
+  pure subroutine collect_pressure(number, reach, cells, info)
+    use fuge_constants, only: PI
+    use fuge_pressed_cells, only: allocate_cells, pressed_cells
+    integer, intent(in) :: number
+    real(dp), intent(in) :: reach
+    type(pressed_cells), intent(out) :: cells
+    type(fuge_info), intent(out) :: info
+    real(dp) :: left, right
+    integer :: k
+
+    call allocate_cells(1, number, cells, info)
+    if (info%failed()) return
+    cells%continuous = .true.
+    do k = 1, number
+      left = -reach*cos(PI*(real(k - 1, dp)/real(number, dp)))
+      right = -reach*cos(PI*(real(k, dp)/real(number, dp)))
+      cells%centre(1, k) = 0.5_dp*(left + right)
+      cells%width(1, k) = right - left
+    end do
+  end subroutine collect_pressure
 
   !> Room for the components at so many points; FUGE_ERR_MEMORY.
   subroutine make_components(components, points, component, info)

@@ -89,13 +89,43 @@ contains
   end subroutine find_displacement
 
   subroutine find_largest(self, measure, peak, info)
-    use fuge_round_peak_search, only: fuge_ring_peak
+    use fuge_peak_search, only: find_peak
+    use fuge_pressed_cells, only: pressed_cells
     class(fuge_rings_field), intent(in) :: self
     integer, intent(in) :: measure
     type(fuge_stress_peak), intent(inout) :: peak
     type(fuge_info), intent(out) :: info
+    type(pressed_cells) :: cells
 
-    call fuge_ring_peak(self%radius, self%force, self%poisson, measure, peak, info)
+    call collect_rings(self, cells, info)
+    if (cells%surface_counts()) call cells%find_surface(info)
+    call find_peak(self, cells, measure, peak, info)
   end subroutine find_largest
+
+  !> The rings with a force, on both sides of the axis. FUGE_ERR_MEMORY.
+  pure subroutine collect_rings(field, cells, info)
+    use fuge_constants, only: PI
+    use fuge_pressed_cells, only: allocate_cells, pressed_cells
+    type(fuge_rings_field), intent(in) :: field
+    type(pressed_cells), intent(out) :: cells
+    type(fuge_info), intent(out) :: info
+    real(dp) :: width
+    integer :: k, number
+
+    number = 2*count(abs(field%force) > 0.0_dp)
+    call allocate_cells(1, number, cells, info)
+    if (info%failed()) return
+    cells%symmetric(1) = .true.
+    cells%surface_factor = 1.0_dp - 2.0_dp*field%poisson
+    number = 0
+    do k = 1, size(field%force)
+      if (.not. abs(field%force(k)) > 0.0_dp) cycle
+      width = field%radius(k + 1) - field%radius(k)
+      number = number + 2
+      cells%centre(1, number - 1:number) = (field%radius(k) + 0.5_dp*width)*[1.0_dp, -1.0_dp]
+      cells%width(1, number - 1:number) = width
+      cells%pressure(number - 1:number) = field%force(k)/width/(PI*(field%radius(k) + field%radius(k + 1)))
+    end do
+  end subroutine collect_rings
 
 end module fuge_field_of_rings
