@@ -100,6 +100,7 @@ contains
     call find_gap_at_stops(self, canonical, state)
     self%zero_force = self%unloaded_force
     if (allocated(self%limit_force)) deallocate (self%limit_force, self%limit_displacement)
+    if (.not. canonical%has_limits()) return
     if (.not. any(abs(state) > 1)) return
     call load_limited_points(self, canonical, state)
     if (any(abs(self%limit_force) > 0.0_dp)) &
@@ -354,6 +355,8 @@ contains
           end if
           cycle
         end if
+        ! Most open points lie between their stops.
+        if (state == FUGE_OPEN .and. gap >= 0.0_dp .and. gap <= canonical%upper(j)) cycle
         beyond = -canonical%slack(j, state, gap)
         if (.not. beyond > 0.0_dp) cycle
         rigid_gap = abs(gap - self%elastic(j))

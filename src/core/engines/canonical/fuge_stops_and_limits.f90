@@ -134,26 +134,34 @@ contains
   !> none, limited ones that of their limit, tied ones either sign.
   pure subroutine force_range(self, state, least, most)
     class(stops_and_limits), intent(in) :: self
-    integer, intent(in) :: state(:)
-    real(dp), intent(out) :: least(:), most(:)
+    integer, intent(in), contiguous :: state(:)
+    real(dp), intent(out), contiguous :: least(:), most(:)
     real(dp) :: limit, limit_upper
     integer :: k
 
     limit = huge(limit)
     limit_upper = huge(limit_upper)
-    least = 0.0_dp
-    most = 0.0_dp
     do k = 1, size(state)
+      least(k) = 0.0_dp
+      most(k) = 0.0_dp
       if (state(k) == FUGE_OPEN) cycle
       if (allocated(self%limit)) then
         limit = self%limit(k)
         limit_upper = self%limit_upper(k)
       end if
-      if (state(k) > FUGE_OPEN) most(k) = limit
-      if (state(k) < FUGE_OPEN) least(k) = -limit_upper
-      if (state(k) == FUGE_LIMITED_LOWER) least(k) = most(k)
-      if (state(k) == FUGE_LIMITED_UPPER) most(k) = least(k)
-      if (state(k) == FUGE_AT_LOWER_STOP .and. .not. self%upper(k) > 0.0_dp) least(k) = -limit_upper
+      select case (state(k))
+      case (FUGE_AT_LOWER_STOP)
+        most(k) = limit
+        if (.not. self%upper(k) > 0.0_dp) least(k) = -limit_upper
+      case (FUGE_AT_UPPER_STOP)
+        least(k) = -limit_upper
+      case (FUGE_LIMITED_LOWER)
+        least(k) = limit
+        most(k) = limit
+      case (FUGE_LIMITED_UPPER)
+        least(k) = -limit_upper
+        most(k) = -limit_upper
+      end select
     end do
   end subroutine force_range
 
@@ -213,7 +221,7 @@ contains
       select case (state(k))
       case (FUGE_OPEN)
         gap(k) = min(gap(k), self%upper(k))
-        if (self%pushes(k)) gap(k) = max(gap(k), 0.0_dp)
+        if (gap(k) < 0.0_dp) gap(k) = merge(0.0_dp, gap(k), self%pushes(k))
       case (FUGE_LIMITED_LOWER)
         gap(k) = min(gap(k), 0.0_dp)
       case (FUGE_LIMITED_UPPER)
