@@ -33,6 +33,8 @@ module fuge_equilibrium
   real(dp), parameter :: LEFT_TO_GAIN = 0.5_dp
   !> Rows of the modes that agree to this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-13_dp
+  !> Points whose work is computed together.
+  integer, parameter :: BLOCK_SIZE = 512
   !> Steps by points that do next to no work, after which equilibrium is left undecided.
   integer, parameter :: MOST_UNPROVEN = 50
   !> A load may miss the edge of what the contact can carry by this many units in its last place.
@@ -108,22 +110,17 @@ contains
     type(point_space), intent(in) :: space
     real(dp), intent(out) :: force(:)
 
+    logical :: has_limits
+
     force = 0.0_dp
-    if (.not. space%anywhere(any(has_limit(least) .or. has_limit(most)))) return
+    has_limits = any((least < 0.0_dp .and. least > -huge(least)) .or. (most > 0.0_dp .and. most < huge(most)))
+    if (.not. space%anywhere(has_limits)) return
     if (size(resultant) == 1) then
       call share_evenly(modes(:, 1), resultant(1), least, most, space, force)
     else
       call share_load(modes, resultant, least, most, space, force)
     end if
   end subroutine start_forces
-
-  !> Is the end of a range a limit, between no force at all and any?
-  elemental function has_limit(bound)
-    real(dp), intent(in) :: bound
-    logical :: has_limit
-
-    has_limit = abs(bound) > 0.0_dp .and. abs(bound) < huge(bound)
-  end function has_limit
 
   !> The `remainder` of the resultant (m), and the `terms` (m) that it is a difference of.
   subroutine find_remainder(modes, resultant, force, space, remainder, terms)
@@ -201,27 +198,33 @@ contains
   end subroutine add_point
 
   !> The `point` of this rank, not among those `taken`, whose force can change so as to do most `work` along the
-  !> remainder; 0 if none does more than the `fraction` of its terms. The arguments are nine, as of
-  !> `add_point`.
+  !> remainder; 0 if none does more than the `fraction` of its terms. In blocks, so that no array of all points is
+  !> needed. The arguments are nine, as of `add_point`.
   pure subroutine find_most_work(modes, remainder, fraction, force, least, most, taken, point, work)
-    real(dp), intent(in) :: modes(:, :), remainder(:), fraction, force(:), least(:), most(:)
+    real(dp), intent(in), contiguous :: modes(:, :)
+    real(dp), intent(in) :: remainder(:), fraction, force(:), least(:), most(:)
     integer, intent(in) :: taken(:)
     integer, intent(out) :: point
     real(dp), intent(out) :: work
-    real(dp) :: signed_work
-    integer :: k
+    real(dp) :: works(BLOCK_SIZE)
+    integer :: before, k, points
 
     point = 0
     work = 0.0_dp
-    do k = 1, size(force)
-      signed_work = dot_product(modes(k, :), remainder)
-      if (abs(signed_work) <= fraction*sum(abs(modes(k, :)))) cycle
-      if (abs(signed_work) <= work) cycle
-      if (signed_work > 0.0_dp .and. .not. force(k) < most(k)) cycle
-      if (signed_work < 0.0_dp .and. .not. force(k) > least(k)) cycle
-      if (any(taken == k)) cycle
-      work = abs(signed_work)
-      point = k
+    do before = 0, size(force) - 1, BLOCK_SIZE
+      points = min(BLOCK_SIZE, size(force) - before)
+      associate (rows => modes(before + 1:before + points, :))
+        works(:points) = matmul(rows, remainder)
+        where (abs(works(:points)) <= fraction*sum(abs(rows), dim=2)) works(:points) = 0.0_dp
+      end associate
+      do k = before + 1, before + points
+        if (abs(works(k - before)) <= work) cycle
+        if (works(k - before) > 0.0_dp .and. .not. force(k) < most(k)) cycle
+        if (works(k - before) < 0.0_dp .and. .not. force(k) > least(k)) cycle
+        if (any(taken == k)) cycle
+        work = abs(works(k - before))
+        point = k
+      end do
     end do
   end subroutine find_most_work
 
