@@ -10,9 +10,8 @@ module fuge_block_pivoting
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: translation_at_shallowest
-  use fuge_limited_active_set, only: exchange_limited, keep_beyond_stops, keep_in_range, run_limited_active_set
   use fuge_monitor_type, only: fuge_monitor, tell_monitor
-  use fuge_primal_active_set, only: joined_stop, run_primal_active_set, NOISE
+  use fuge_primal_active_set, only: run_primal_active_set, NOISE
   use fuge_stall_counter, only: stall_counter
   use fuge_status, only: FUGE_DONE, FUGE_ERR_ITERATION_LIMIT
   use fuge_working_set, only: working_set, SIGN_TOLERANCE
@@ -120,11 +119,7 @@ contains
         return
       end if
       if (progress%stalls%has_stalled()) then
-        if (canonical%has_limits()) then
-          call run_limited_active_set(canonical, limit, monitor, set, factor, solution, iterations, status)
-        else
-          call run_primal_active_set(canonical, limit, monitor, set, factor, solution, iterations, status)
-        end if
+        call run_primal_active_set(canonical, limit, monitor, set, factor, solution, iterations, status)
         if (status /= FUGE_DONE) return
       else
         call exchange_violating(canonical, set, solution)
@@ -191,19 +186,17 @@ contains
     progress%refine_now = progress%stalls%left < progress%stalls%limit
   end subroutine count_progress
 
-  !> A point in contact with a tensile force opens; an open one beyond a stop joins it.
+  !> Every point that violates the conditions of its state goes to the next one.
   pure subroutine exchange_violating(canonical, set, solution)
     type(canonical_problem), intent(in) :: canonical
     type(working_set), intent(in) :: set
     type(contact_solution), intent(inout) :: solution
+    integer :: k
 
-    if (canonical%has_limits()) then
-      call exchange_limited(canonical, set%violation > SIGN_TOLERANCE, solution)
-      return
-    end if
-    where (set%violation > SIGN_TOLERANCE)
-      solution%state = merge(joined_stop(solution%gap, canonical%upper), FUGE_OPEN, solution%state == FUGE_OPEN)
-    end where
+    do k = 1, size(set%violation)
+      if (set%violation(k) <= SIGN_TOLERANCE) cycle
+      solution%state(k) = canonical%next_state(k, solution%state(k), solution%force(k), solution%gap(k))
+    end do
   end subroutine exchange_violating
 
   !> Take rounding out of forces, gaps and motion of the accepted set.
@@ -217,18 +210,13 @@ contains
     before = solution%force
     if (factor%regularisation > 0.0_dp) then
       call set%refine(canonical, factor, 0.0_dp, solution)
-      if (.not. canonical%has_limits()) call solve_without_idle(canonical, set, solution)
+      call solve_without_idle(canonical, set, solution)
     end if
     call set%estimate_error(canonical, factor, solution)
     solution%violation = maxval(set%violation)
-    associate (upper => canonical%upper, state => solution%state, force => solution%force, motion => solution%motion)
-      if (canonical%has_limits()) then
-        call keep_in_range(canonical, state, force)
-        where (abs(force) <= set%zero_force .and. abs(state) < 2) force = 0.0_dp
-      else
-        where (upper > 0.0_dp) force = real(state, dp)*max(state*force, 0.0_dp)
-        where (abs(force) <= set%zero_force) force = 0.0_dp
-      end if
+    associate (state => solution%state, force => solution%force, motion => solution%motion)
+      call canonical%keep_in_range(state, force)
+      where (abs(force) <= set%zero_force .and. abs(state) < 2) force = 0.0_dp
       if (canonical%plain) then
         motion(1) = translation_at_shallowest(canonical%alpha, canonical%datum, set%reduced_gap, set%contact, force, &
                                               motion(1))
@@ -238,11 +226,7 @@ contains
       if (set%has_no_length(canonical)) motion = 0.0_dp
       if (any(abs(force - before) > 0.0_dp)) call set%measure(canonical, .false., solution)
       call set%find_gaps(canonical, solution)
-      if (canonical%has_limits()) then
-        call keep_beyond_stops(canonical, solution)
-      else
-        where (state == FUGE_OPEN .and. .not. canonical%excluded) solution%gap = min(max(solution%gap, 0.0_dp), upper)
-      end if
+      call canonical%keep_beyond_stops(state, solution%gap)
       if (canonical%has_translation) motion(1) = motion(1) + set%gap_datum + canonical%datum*canonical%load(1)
     end associate
   end subroutine remove_rounding

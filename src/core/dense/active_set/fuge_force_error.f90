@@ -198,10 +198,8 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: change, relative, most, open, slack
     integer :: k, points
-    logical :: limited
 
     error = 0.0_dp
-    limited = canonical%has_limits()
     relative = ROUNDINGS*epsilon(relative) + solution%violation
     most = relative*max(canonical%survey%most - canonical%datum, canonical%datum - canonical%survey%least) &
            *sum(abs(solution%force)) + solution%violation*maxval(solution%gap)
@@ -209,8 +207,7 @@ contains
     points = 0
     do k = 1, size(solution%state)
       if (abs(solution%state(k)) == FUGE_AT_LOWER_STOP .or. canonical%excluded(k)) cycle
-      slack = min(solution%gap(k), canonical%upper(k) - solution%gap(k))
-      if (limited) slack = canonical%slack(k, solution%state(k), solution%gap(k))
+      slack = canonical%slack(k, solution%state(k), solution%gap(k))
       if (slack > most) cycle
       call make_room(arrays, solution, info)
       if (info%failed()) return

@@ -167,13 +167,8 @@ contains
     logical :: settled
 
     call list_points(contact, arrays%points, points)
-    if (canonical%has_limits()) then
-      ! Points at their limits have forces that do not change.
-      call list_points(contact .or. abs(force) > 0.0_dp, arrays%loaded, loaded)
-    else
-      loaded = points
-      arrays%loaded(:loaded) = arrays%points(:points)
-    end if
+    ! Points at their limits have forces that do not change.
+    call list_points(contact .or. abs(force) > 0.0_dp, arrays%loaded, loaded)
     call fill_gaps(arrays%points, points)
     last = maxval(abs(force))
     arrays%changes(0) = last

@@ -13,6 +13,7 @@ module fuge_working_set
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: find_force_error, refine_solution, refinement_arrays, solve_set
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
+  use fuge_stops_and_limits, only: excess_over_range
   implicit none
   private
 
@@ -326,29 +327,26 @@ contains
 
   !> Forces of the wrong sign as fractions of the largest force of the body, and gaps beyond a stop as fractions of a
   !> length: the gap less the rigid displacement, which the elastic displacement has to make up for at a point in
-  !> contact, and the terms of that displacement. Excluded points cannot be wrong, nor can tied ones without limits.
+  !> contact, and the terms of that displacement. Excluded points cannot be wrong.
   pure subroutine judge_signs(self, canonical, exact, solution)
     class(working_set), intent(inout) :: self
     type(canonical_problem), intent(in) :: canonical
     logical, intent(in) :: exact
     type(contact_solution), intent(in) :: solution
-    real(dp), allocatable :: scale(:), least(:), most(:)
+    real(dp), allocatable :: scale(:)
+    real(dp) :: least(size(self%contact)), most(size(self%contact))
     real(dp) :: largest, beyond, rigid_gap, terms
     integer :: j, strongest
 
-    if (canonical%has_limits()) then
-      allocate (least(size(self%contact)), most(size(self%contact)))
-      call canonical%force_range(solution%state, least, most)
-    end if
+    call canonical%force_range(solution%state, least, most)
     strongest = maxloc(abs(solution%force), dim=1)
     largest = abs(solution%force(strongest))
     self%violation = 0.0_dp
     do j = 1, size(self%violation)
-      if (canonical%excluded(j) .or. .not. (canonical%upper(j) > 0.0_dp .or. allocated(least))) cycle
+      if (canonical%excluded(j)) cycle
       associate (state => solution%state(j), force => solution%force(j), gap => solution%gap(j))
         if (self%contact(j)) then
-          beyond = -force*state
-          if (allocated(least)) beyond = max(least(j) - force, force - most(j))
+          beyond = excess_over_range(force, least(j), most(j))
           if (beyond <= self%zero_force) cycle
           if (.not. allocated(scale)) allocate (scale, source=canonical%force_scale(solution%force))
           self%violation(j) = beyond/scale(j)
@@ -357,8 +355,9 @@ contains
           end if
           cycle
         end if
-        beyond = max(-gap, gap - canonical%upper(j))
-        if (allocated(least)) beyond = -canonical%slack(j, state, gap)
+        ! Most open points lie between their stops.
+        if (state == FUGE_OPEN .and. gap >= 0.0_dp .and. gap <= canonical%upper(j)) cycle
+        beyond = -canonical%slack(j, state, gap)
         if (.not. beyond > 0.0_dp) cycle
         rigid_gap = abs(gap - self%elastic(j))
         terms = abs((canonical%alpha(j, strongest) - canonical%datum)*largest)

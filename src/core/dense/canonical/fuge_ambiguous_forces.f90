@@ -35,9 +35,7 @@ contains
     logical, intent(out) :: touching(:), beyond
     real(dp) :: displacement, rounding, slack
     integer :: first, k
-    logical :: limited
 
-    limited = canonical%has_limits()
     touching = abs(solution%state) == FUGE_AT_LOWER_STOP
     beyond = .false.
     displacement = max(canonical%survey%most - canonical%datum, canonical%datum - canonical%survey%least) &
@@ -47,8 +45,7 @@ contains
     rounding = ROUNDINGS*epsilon(rounding)*(displacement + sum(abs(solution%motion(first:))))
     do k = 1, size(touching)
       if (touching(k) .or. canonical%excluded(k)) cycle
-      slack = min(solution%gap(k), canonical%upper(k) - solution%gap(k))
-      if (limited) slack = canonical%slack(k, solution%state(k), solution%gap(k))
+      slack = canonical%slack(k, solution%state(k), solution%gap(k))
       touching(k) = slack <= rounding
       beyond = beyond .or. touching(k)
     end do
@@ -129,8 +126,8 @@ contains
     real(dp), intent(in) :: basis(:, :)
     logical :: may
     real(dp), dimension(size(basis, 2)) :: combination, direction
-    real(dp) :: work(size(points))
-    logical, dimension(size(points)) :: idle, pushes, pulls
+    real(dp), dimension(size(points)) :: least, most, work
+    logical, dimension(size(points)) :: idle, pulls
     integer :: j, sense
 
     idle = .not. loaded(points) .and. maxval(abs(basis), dim=2) > NO_FORCE
@@ -142,12 +139,13 @@ contains
     ! become smaller.
     pulls = idle .and. merge(solution%state(points) < 0, solution%gap(points) < 0.5_dp*canonical%upper(points), &
                              abs(solution%state(points)) > 1)
-    pushes = idle .and. .not. pulls
+    least = merge(-huge(least), 0.0_dp, pulls)
+    most = merge(huge(most), 0.0_dp, idle .and. .not. pulls)
     do j = 1, size(direction)
       do sense = -1, 1, 2
         direction = 0.0_dp
         direction(j) = real(sense, dp)
-        call find_equilibrium(basis, direction, pushes, pulls, work, combination)
+        call find_equilibrium(basis, direction, least, most, work, combination)
         may = any(abs(combination) > 0.0_dp)
         if (may) return
       end do

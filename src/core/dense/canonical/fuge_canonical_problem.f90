@@ -5,17 +5,15 @@
 !> carry is refused here.
 module fuge_canonical_problem
   use, intrinsic :: iso_c_binding, only: c_long_long
-  use fuge_equilibrium, only: is_in_equilibrium
+  use fuge_equilibrium, only: find_equilibrium, is_in_equilibrium, move_to_edge
   use fuge_equilibrium_report, only: report_no_equilibrium
   use fuge_given_motions, only: given_motions
   use fuge_kinds, only: dp
-  use fuge_limited_equilibrium, only: find_limited_equilibrium
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
   use fuge_number_text, only: index_text
   use fuge_orthogonal_modes, only: bodies_of_modes, make_orthogonal, mode_fault
   use fuge_point_space, only: point_space
   use fuge_problem_type, only: fuge_problem
-  use fuge_shared_equilibrium, only: find_shared_equilibrium, move_to_edge
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_MODES, FUGE_ERR_NO_EQUILIBRIUM, &
     FUGE_ERR_UNSUPPORTED
   implicit none
@@ -333,30 +331,26 @@ contains
     type(canonical_problem), intent(inout) :: canonical
     real(dp), intent(inout) :: remainder(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: modes(:, :), force(:)
+    real(dp), allocatable :: modes(:, :), least(:), most(:), force(:)
     real(dp), dimension(count(member)) :: rest, noise
-    logical, allocatable :: pushes(:), pulls(:)
     integer :: columns(count(member)), j, n, stat
 
     n = size(canonical%gap)
-    allocate (modes(n, size(columns)), force(n), pushes(n), pulls(n), stat=stat)
+    allocate (modes(n, size(columns)), least(n), most(n), force(n), stat=stat)
     call require_memory(stat, 'the equilibrium of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     columns = pack([(j, j=1, size(member))], member)
     modes = canonical%modes(:, columns)
+    call canonical%force_bounds(least, most)
     do j = 1, n
-      pushes(j) = any(abs(modes(j, :)) > 0.0_dp) .and. .not. canonical%excluded(j)
+      if (any(abs(modes(j, :)) > 0.0_dp)) cycle
+      least(j) = 0.0_dp
+      most(j) = 0.0_dp
     end do
-    pulls = pushes .and. canonical%upper < huge(1.0_dp)
     ! The orthogonal modes of a body share their rounding.
     noise = max(rounding(columns), epsilon(noise)*maxval(abs(canonical%load(columns))))
-    if (canonical%has_limits()) then
-      call find_limited_equilibrium(modes, canonical%load(columns), merge(-canonical%limit_upper, 0.0_dp, pulls), &
-                                    merge(canonical%limit, 0.0_dp, pushes), noise, force, rest, canonical%space)
-    else
-      call find_shared_equilibrium(canonical%space, modes, canonical%load(columns), pushes, pulls, force, rest, noise)
-    end if
+    call find_equilibrium(modes, canonical%load(columns), least, most, force, rest, noise, canonical%space)
     if (any(abs(rest) > 0.0_dp)) then
       remainder(columns) = rest
     else if (.not. canonical%has_limits()) then

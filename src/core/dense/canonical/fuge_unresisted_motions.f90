@@ -3,12 +3,12 @@ module fuge_unresisted_motions
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: is_at_stop, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, FUGE_OPEN
+  use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   use fuge_number_text, only: index_text
   use fuge_pivoted_qr, only: orthogonal_complement
   use fuge_point_space, only: point_space
   use fuge_shared_columns, only: gather_spanning_rows
-  use fuge_shared_equilibrium, only: find_shared_equilibrium
   use fuge_status, only: fuge_info, report, require_memory, FUGE_WARN_NOT_UNIQUE, FUGE_ERR_NO_EQUILIBRIUM
   implicit none
   private
@@ -35,39 +35,31 @@ contains
     type(contact_solution), intent(in) :: solution
     real(dp), intent(out) :: motion(:)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: basis(:, :), work(:)
+    real(dp), allocatable :: basis(:, :), work(:), least(:), most(:)
     logical, allocatable, dimension(:) :: loaded, resists_closing, resists_opening
-    integer :: j, n, stat
+    integer :: j, n, sense, stat
 
     motion = 0.0_dp
     n = size(solution%state)
-    allocate (work(n), loaded(n), resists_closing(n), resists_opening(n), stat=stat)
+    allocate (work(n), least(n), most(n), loaded(n), resists_closing(n), resists_opening(n), stat=stat)
     call require_memory(stat, 'the motions of', n, 'points', info)
     call canonical%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
     call mark_loaded(canonical, solution, work, loaded)
     call find_unresisted_basis(canonical%modes, loaded, basis, canonical%space)
-    if (canonical%has_limits()) then
-      call find_resistance(canonical, solution, loaded, work, resists_closing, resists_opening)
-    else
-      associate (state => solution%state, gap => solution%gap)
-        ! A point that touches without force resists in one sense only.
-        resists_closing = loaded .or. ((state > FUGE_OPEN .or. gap <= 0.0_dp) .and. .not. canonical%excluded)
-        resists_opening = loaded .or. ((state < FUGE_OPEN .or. gap >= canonical%upper) .and. .not. canonical%excluded)
-      end associate
-    end if
+    call find_resistance(canonical, solution, loaded, work, resists_closing, resists_opening)
+    least = merge(-huge(least), 0.0_dp, resists_opening)
+    most = merge(huge(most), 0.0_dp, resists_closing)
     do j = 1, size(basis, 2)
-      call find_shared_equilibrium(canonical%space, canonical%modes, basis(:, j), resists_closing, resists_opening, &
-                                   work, motion, epsilon(motion)*spread(maxval(abs(basis(:, j))), 1, size(motion)))
-      if (any(abs(motion) > 0.0_dp)) return
-      call find_shared_equilibrium(canonical%space, canonical%modes, -basis(:, j), resists_closing, resists_opening, &
-                                   work, motion, epsilon(motion)*spread(maxval(abs(basis(:, j))), 1, size(motion)))
-      if (any(abs(motion) > 0.0_dp)) return
+      do sense = 1, -1, -2
+        call find_equilibrium(canonical%modes, sense*basis(:, j), least, most, work, motion, sharing=canonical%space)
+        if (any(abs(motion) > 0.0_dp)) return
+      end do
     end do
   end subroutine find_unresisted_motion
 
-  !> The senses in which points (n) resist a motion where forces have limits: those of `loaded` ones both, at the end of
-  !> its range a force resists in one sense only. `scale` (n) of the forces.
+  !> The senses in which points (n) resist a motion: `loaded` ones in both; one that touches without force, or whose
+  !> force is at its limit, in one only. `scale` (n) of the forces.
   subroutine find_resistance(canonical, solution, loaded, scale, resists_closing, resists_opening)
     type(canonical_problem), intent(in) :: canonical
     type(contact_solution), intent(in) :: solution

@@ -3,8 +3,8 @@
 module fuge_limited_points
   use fuge_contact_iterate, only: contact_iterate, overlap_at
   use fuge_contact_scene, only: contact_scene
+  use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
-  use fuge_limited_equilibrium, only: find_limited_equilibrium
   implicit none
   private
 
@@ -162,8 +162,8 @@ contains
     else
       allocate (most, source=scene%limit)
       if (allocated(scene%excluded)) where (scene%excluded) most = 0.0_dp
-      call find_limited_equilibrium(reshape(0.0_dp*most + 1.0_dp, [size(most), 1]), [1.0_dp], 0.0_dp*most, most, &
-                                    [epsilon(1.0_dp)], iterate%force, ignored, scene%rows%point_space)
+      call find_equilibrium(reshape(0.0_dp*most + 1.0_dp, [size(most), 1]), [1.0_dp], 0.0_dp*most, most, &
+                            iterate%force, ignored, sharing=scene%rows%point_space)
       ! An even share of a load that all limits just carry is beside these by rounding.
       where (iterate%force >= (1.0_dp - ROUNDING)*most) iterate%force = most
     end if

@@ -3,9 +3,8 @@
 !> Most problems have one translation, free or prescribed, and one-sided contact everywhere: what else a scene has is
 !> allocated only where it has it.
 module fuge_contact_scene
+  use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
-  use fuge_limited_equilibrium, only: find_limited_equilibrium
-  use fuge_shared_equilibrium, only: find_shared_equilibrium
   use fuge_shared_rows, only: shared_rows
   use fuge_shared_transfer, only: restrict_rows
   use fuge_status, only: fuge_info, require_memory
@@ -320,28 +319,28 @@ contains
     type(contact_scene), intent(inout) :: scene
     logical, intent(out) :: possible
     type(fuge_info), intent(inout) :: info
-    real(dp) :: remainder(size(scene%load)), noise(size(scene%load))
-    logical, allocatable :: pushes(:), pulls(:)
+    real(dp) :: remainder(size(scene%load))
+    real(dp), allocatable :: least(:), most(:)
     integer :: stat
 
     possible = .false.
-    allocate (pushes(size(scene%gap)), pulls(size(scene%gap)), stat=stat)
+    allocate (least(size(scene%gap)), most(size(scene%gap)), stat=stat)
     call require_memory(stat, 'the equilibrium of', size(scene%gap), 'cells', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    pushes = .true.
-    if (allocated(scene%excluded)) pushes = .not. scene%excluded
-    pulls = .false.
-    if (allocated(scene%play)) pulls = pushes .and. scene%play < huge(1.0_dp)
-    noise = epsilon(noise)*maxval(abs(scene%load))
+    least = 0.0_dp
+    most = huge(1.0_dp)
+    if (allocated(scene%play)) least = merge(-huge(1.0_dp), 0.0_dp, scene%play < huge(1.0_dp))
     if (scene%has_limits()) then
-      call find_limited_equilibrium(scene%modes, scene%load, merge(-scene%limit_upper, 0.0_dp, pulls), &
-                                    merge(scene%limit, 0.0_dp, pushes), noise, scene%balance, remainder, &
-                                    scene%rows%point_space)
-    else
-      call find_shared_equilibrium(scene%rows%point_space, scene%modes, scene%load, pushes, pulls, scene%balance, &
-                                   remainder, noise)
+      least = max(least, -scene%limit_upper)
+      most = scene%limit
     end if
+    if (allocated(scene%excluded)) then
+      least = merge(0.0_dp, least, scene%excluded)
+      most = merge(0.0_dp, most, scene%excluded)
+    end if
+    call find_equilibrium(scene%modes, scene%load, least, most, scene%balance, remainder, &
+                          sharing=scene%rows%point_space)
     possible = .not. any(abs(remainder) > 0.0_dp)
   end subroutine find_balance
 

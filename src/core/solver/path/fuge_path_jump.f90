@@ -37,8 +37,8 @@ contains
       if (canonical%has_translation .and. size(load_rate) == 1 .and. any(loaded)) return
       call find_unresisted_basis(canonical%modes, loaded, position%unresisted)
       if (size(position%unresisted, 2) < 1) return
-      call find_equilibrium(canonical%modes, load_rate, loaded .or. position%sense() > 0, &
-                            loaded .or. position%sense() < 0, force, motion)
+      call find_equilibrium(canonical%modes, load_rate, merge(-huge(force), 0.0_dp, loaded .or. position%sense() < 0), &
+                            merge(huge(force), 0.0_dp, loaded .or. position%sense() > 0), force, motion)
       if (.not. any(abs(motion) > 0.0_dp)) return
       call move_to_stop(canonical, motion, loaded, position, status)
       if (status /= FUGE_DONE) return

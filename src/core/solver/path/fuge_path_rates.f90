@@ -244,7 +244,8 @@ contains
     if (.not. allocated(rates%feasible_force)) allocate (rates%feasible_force(n))
     rates%feasible_force = 0.0_dp
     if (size(remainder) > 0) then
-      call find_equilibrium(rates%modes, rates%load, .not. rates%excluded, pulls, rates%feasible_force, remainder)
+      call find_equilibrium(rates%modes, rates%load, merge(-huge(1.0_dp), 0.0_dp, pulls), &
+                            merge(0.0_dp, huge(1.0_dp), rates%excluded), rates%feasible_force, remainder)
     end if
     call run_block_pivoting(rates, ITERATIONS_PER_ROW*(n + 1), no_monitor, own_factor, solution, sets, status)
     if (status /= FUGE_DONE) return
