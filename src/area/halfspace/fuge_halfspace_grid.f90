@@ -2,7 +2,7 @@
 module fuge_halfspace_grid
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_4
-  use fuge_grid_plan, only: fast_length
+  use fuge_fft, only: fast_length
   use fuge_halfplane_fft, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_influence, only: FUGE_MEAN
   use fuge_kinds, only: dp
