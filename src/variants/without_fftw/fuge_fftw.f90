@@ -18,6 +18,8 @@ module fuge_fftw
   integer(c_int), parameter, public :: FFTW_FORWARD = -1
   integer(c_int), parameter, public :: FFTW_MEASURE = 0
   integer(c_int), parameter, public :: FFTW_ESTIMATE = 64
+  !> FFTW may not copy parts of long transforms to buffers: in place, copying only costs time.
+  integer(c_int), parameter, public :: FFTW_NO_BUFFERING = 2048
 
 contains
 

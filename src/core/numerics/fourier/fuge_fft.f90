@@ -14,7 +14,7 @@ module fuge_fft
   use fuge_fftw, only: fftw_destroy_plan, fftw_execute_c2c, fftw_execute_c2r, fftw_execute_r2c, fftw_free, &
     fftw_malloc, fftw_plan_c2c, fftw_plan_c2r, fftw_plan_grid_c2r, fftw_plan_grid_r2c, fftw_plan_r2c, &
     fftwf_destroy_plan, fftwf_execute_c2c, fftwf_plan_c2c, FFTW_ESTIMATE, FFTW_FORWARD, &
-    FFTW_MEASURE, HAS_FFTW
+    FFTW_MEASURE, FFTW_NO_BUFFERING, HAS_FFTW
   use fuge_fftw_planner, only: fftw_make_planner_thread_safe, fftwf_make_planner_thread_safe
   use fuge_kinds, only: dp
   use fuge_locks, only: lock, unlock, LOCK_PLANNER
@@ -26,6 +26,8 @@ module fuge_fft
 
   public :: allocate_values, fast_length, good_length, release_buffer
 
+  !> Complex numbers from which on a transform is long.
+  integer, parameter :: LONG = 4096
   integer, parameter :: int64 = selected_int_kind(18)
 
   !> Forward and backward transforms of one length.
@@ -206,6 +208,7 @@ contains
         plan%forward = fftw_plan_grid_r2c(int(plan%lines, c_int), int(plan%length, c_int), buffer, buffer, flags)
         plan%backward = fftw_plan_grid_c2r(int(plan%lines, c_int), int(plan%length, c_int), buffer, buffer, flags)
       else if (plan%is_packed()) then
+        if (plan%length/2 >= LONG .and. .not. plan%measured) flags = flags + FFTW_NO_BUFFERING
         plan%forward = fftw_plan_c2c(int(plan%length/2, c_int), buffer, buffer, FFTW_FORWARD, flags)
       else
         plan%forward = fftw_plan_r2c(int(plan%length, c_int), buffer, buffer, flags)
