@@ -430,7 +430,13 @@ contains
       call c_f_pointer(c_loc(self), pair%kernel)
       call c_f_pointer(c_loc(plan), pair%plan)
       call c_f_pointer(c_loc(x), pair%x, shape(x))
-      call run_in_parts(2, pair)
+      if (is_folded(self%length)) then
+        call run_in_parts(2, pair)
+      else
+        ! Waking another thread would take as long.
+        call pair%do_part(0, 2)
+        call pair%do_part(1, 2)
+      end if
       first = min(plan%length, results)
       call copy_exchanged(pair%even, y(:first))
       call copy_exchanged(pair%even, y(first + 1:))
