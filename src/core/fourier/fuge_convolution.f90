@@ -3,24 +3,21 @@
 !> A cyclic convolution of N values multiplies their transform by the spectrum of an even kernel, which is real. N even
 !> values are transformed as N/2 complex numbers, whose transforms are multiplied by the factors of fuge_pair_factors.
 !>
-!> A convolution on a circle of 2N cells, of N values followed by N zeros, of which the first N results are
-!> needed, is half the sum of two on N: a cyclic one with the even numbers of the spectrum, and one with the
-!> odd ones, where whatever goes once round the circle changes its sign. The second needs the numbers
-!> 1, 5, 9, .. only, the transform of the N/2 complex numbers (x_j - i x_(j+N/2)) exp(-i pi j/N). Two
-!> transforms of N values take less time than one of 2N.
-!>
-!> Long circles are transformed as grids, which threads share (fuge_split_convolution).
+!> A convolution on a circle of 2N cells is half the sum of two on N: a cyclic one with the even numbers of the
+!> spectrum, of the sums of values half a circle apart, and one with the odd ones, of their differences, where whatever
+!> goes once round the circle changes its sign. The second needs the numbers 1, 5, 9, .. only, the transform of the N/2
+!> complex numbers (x_j - i x_(j+N/2)) exp(-i pi j/N). Two transforms of N values take less time than one of 2N, and two
+!> threads share them. That is done where values are followed by as many zeros, and on long circles.
 module fuge_convolution
-  use, intrinsic :: iso_c_binding, only: c_double, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_loc, c_ptr
   use fuge_constants, only: PI
-  use fuge_circle_split, only: split_circle
-  use fuge_fft, only: allocate_values, fft_plan, release_buffer
+  use fuge_fft, only: fft_plan, release_buffer
   use fuge_kinds, only: dp
-  use fuge_line_plan, only: line_plan
+  use fuge_line_plan, only: is_folded, line_plan
   use fuge_pair_factors, only: pair_factors, soften
   use fuge_spectrum_bounds, only: spectrum_bounds
-  use fuge_split_convolution, only: convolve_split, order_factors, order_odd_factors
   use fuge_status, only: FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_MEMORY, FUGE_ERR_SIZE
+  use fuge_threads, only: run_in_parts, work_in_parts
   use fuge_unit_roots, only: fill_roots
   implicit none
   private
@@ -31,11 +28,13 @@ module fuge_convolution
   type, public :: convolution_kernel
     !> Number of values N of the plan; 0 before it is set.
     integer :: length = 0
-    !> For even N the factors of the numbers k and N/2-k (fuge_pair_factors), (3, 0:N/4), or in the order of
-    !> fuge_split_convolution; for odd N the spectrum, (1, 0:N/2).
+    !> Its circle is done as two of N/2.
+    logical, private :: folded = .false.
+    !> For even N the factors of the numbers k and N/2-k (fuge_pair_factors), (3, 0:N/4); for odd N the spectrum,
+    !> (1, 0:N/2). If it is folded, those of N/2.
     real(dp), allocatable, private :: factors(:, :)
-    !> On a circle of 2N cells: the numbers 1, 5, .. of the spectrum, and cos and sin of pi j/N, (2, N/2), unless it is
-    !> split.
+    !> On a circle of 2N cells: the numbers 1, 5, .. of the spectrum, and exp(-i pi j/N), real and imaginary parts,
+    !> (2, N/2). If it is folded, those on N cells.
     real(dp), allocatable, private :: odd_factors(:), twist(:, :)
     !> Of the spectrum, which the factors do not show.
     type(spectrum_bounds) :: bounds
@@ -48,6 +47,16 @@ module fuge_convolution
     final :: release
   end type convolution_kernel
 
+  !> The transforms of both circles of a product; two threads share them.
+  type, extends(work_in_parts) :: circle_pair
+    type(convolution_kernel), pointer :: kernel => null()
+    type(fft_plan), pointer :: plan => null()
+    real(dp), pointer, contiguous :: x(:) => null()
+    real(c_double), pointer, contiguous :: even(:) => null(), odd(:) => null()
+  contains
+    procedure :: do_part => convolve_circle
+  end type circle_pair
+
 contains
 
   !> Set the spectrum of a cyclic convolution of `length` values.
@@ -58,37 +67,30 @@ contains
     integer, intent(in) :: length
     real(dp), intent(in) :: spectrum(0:)
     integer, intent(out) :: status
-    integer :: columns, k, rows
+    real(dp), allocatable :: odd(:)
+    integer :: k
 
-    self%length = 0
     call clear(self)
     status = FUGE_ERR_SIZE
     if (length < 1 .or. size(spectrum) /= length/2 + 1) return
-    call split_circle(length, rows, columns)
-    if (rows > 0) then
-      allocate (self%factors(3, 0:columns*(rows/2 + 1) - 1), stat=status)
-    else if (mod(length, 2) == 0) then
-      allocate (self%factors(3, 0:length/4), stat=status)
+    self%folded = is_folded(length)
+    if (self%folded) then
+      allocate (odd(length/4), stat=status)
+      if (status /= 0) status = FUGE_ERR_MEMORY
+      if (status /= FUGE_DONE) return
+      do k = 1, size(odd)
+        odd(k) = spectrum(min(4*k - 3, length - (4*k - 3)))
+      end do
+      call set_factors(self, length/2, spectrum(0::2), status)
+      if (status == FUGE_DONE) call set_odd_factors(self, odd, status)
     else
-      allocate (self%factors(1, 0:length/2), stat=status)
+      call set_factors(self, length, spectrum, status)
     end if
-    if (status /= 0) then
-      status = FUGE_ERR_MEMORY
-      return
-    end if
+    if (status /= FUGE_DONE) return
     self%length = length
     self%bounds = spectrum_bounds(constant=spectrum(0), together=abs(spectrum(0)))
     call self%bounds%add_waves(spectrum(1:), 2)
     call self%bounds%scale_by(real(length, dp))
-    if (rows > 0) then
-      call order_factors(rows, columns, spectrum, self%factors)
-    else if (mod(length, 2) == 0) then
-      do k = 0, length/4
-        self%factors(:, k) = pair_factors(spectrum(k), spectrum(length/2 - k), root(k, length))
-      end do
-    else
-      self%factors(1, :) = spectrum
-    end if
   end subroutine set_cyclic
 
   !> Set the spectrum of a convolution on a circle of 2*length cells, `length` even.
@@ -100,77 +102,77 @@ contains
     integer, intent(in) :: length
     real(dp), intent(in) :: even(:), odd(:)
     integer, intent(out) :: status
-    integer :: columns, rows
 
-    call self%set_cyclic(length, even, status)
-    if (status /= FUGE_DONE) return
+    call clear(self)
     status = FUGE_ERR_SIZE
-    if (mod(length, 2) /= 0 .or. size(odd) /= length/2) self%length = 0
-    if (self%length == 0) return
-    call split_circle(length, rows, columns)
-    allocate (self%odd_factors(length/2), self%twist(2, merge(0, length/2, rows > 0)), stat=status)
+    if (length < 1 .or. mod(length, 2) /= 0 .or. size(even) /= length/2 + 1 .or. size(odd) /= length/2) return
+    call set_factors(self, length, even, status)
+    if (status == FUGE_DONE) call set_odd_factors(self, odd, status)
+    if (status /= FUGE_DONE) return
+    self%length = length
+    self%bounds = spectrum_bounds(constant=even(1), together=abs(even(1)))
+    call self%bounds%add_waves(even(2:), 2)
+    call self%bounds%add_waves(odd, 2)
+    call self%bounds%scale_by(2.0_dp*real(length, dp))
+  end subroutine set_padded
+
+  !> The factors of a circle of `length` values. `status`: 0 or FUGE_ERR_MEMORY.
+  pure subroutine set_factors(self, length, spectrum, status)
+    class(convolution_kernel), intent(inout) :: self
+    integer, intent(in) :: length
+    real(dp), intent(in) :: spectrum(0:)
+    integer, intent(out) :: status
+    real(dp), allocatable :: roots(:, :)
+    integer :: k
+
+    if (mod(length, 2) == 0) then
+      allocate (self%factors(3, 0:length/4), roots(2, 0:length/4), stat=status)
+    else
+      allocate (self%factors(1, 0:length/2), stat=status)
+    end if
     if (status /= 0) then
       status = FUGE_ERR_MEMORY
-      self%length = 0
-      return
+    else if (mod(length, 2) == 0) then
+      call fill_roots(length, roots)
+      do k = 0, length/4
+        self%factors(:, k) = pair_factors(spectrum(k), spectrum(length/2 - k), roots(:, k))
+      end do
+    else
+      self%factors(1, :) = spectrum
     end if
-    ! Those of a circle that is twice as long are divided by that.
-    call self%bounds%scale_by(2.0_dp)
-    call self%bounds%add_waves(odd*(2.0_dp*real(length, dp)), 2)
-    if (rows > 0) then
-      call order_odd_factors(rows, columns, 2.0_dp*odd, self%odd_factors)
+  end subroutine set_factors
+
+  !> Those of the circle round which values change their sign, and its twist. `status`: 0 or FUGE_ERR_MEMORY.
+  pure subroutine set_odd_factors(self, odd, status)
+    class(convolution_kernel), intent(inout) :: self
+    real(dp), intent(in) :: odd(:)
+    integer, intent(out) :: status
+
+    allocate (self%odd_factors(size(odd)), self%twist(2, size(odd)), stat=status)
+    if (status /= 0) then
+      status = FUGE_ERR_MEMORY
     else
       self%odd_factors = 2.0_dp*odd
-      call compute_twist(self%twist)
+      call fill_roots(4*size(odd), self%twist)
     end if
-  end subroutine set_padded
+  end subroutine set_odd_factors
 
   !> Deallocate all arrays.
   pure subroutine clear(self)
     class(convolution_kernel), intent(inout) :: self
 
+    self%length = 0
+    self%folded = .false.
     if (allocated(self%factors)) deallocate (self%factors)
     if (allocated(self%odd_factors)) deallocate (self%odd_factors)
     if (allocated(self%twist)) deallocate (self%twist)
   end subroutine clear
-
-  !> Real and imaginary parts of exp(-2 pi i k/n), 0 <= k <= n/2.
-  pure function root(k, n)
-    integer, intent(in) :: k, n
-    real(dp) :: root(2)
-    real(dp) :: theta
-
-    theta = 2.0_dp*PI*(real(k, dp)/real(n, dp))
-    root = [cos(theta), -sin(theta)]
-  end function root
-
-  !> cos and sin of pi j/N, j from 0; `twist` (2, N/2).
-  pure subroutine compute_twist(twist)
-    real(dp), intent(out) :: twist(:, :)
-    real(dp) :: angle
-    integer :: j
-
-    do j = 1, size(twist, 2)
-      angle = 0.5_dp*PI*(real(j - 1, dp)/real(size(twist, 2), dp))
-      twist(1, j) = cos(angle)
-      twist(2, j) = sin(angle)
-    end do
-  end subroutine compute_twist
-
-  !> The same for a long line: that many sines would take as long as its transforms.
-  pure subroutine compute_long_twist(twist)
-    real(dp), intent(inout), contiguous :: twist(:, :)
-
-    call fill_roots(4*size(twist, 2), twist)
-    twist(2, :) = -twist(2, :)
-  end subroutine compute_long_twist
 
   !> gfortran 12 does not free these arrays where a user's type holds an operator that holds the kernel.
   elemental subroutine release(self)
     type(convolution_kernel), intent(inout) :: self
 
     call clear(self)
-    self%length = 0
   end subroutine release
 
   !> Copy a kernel; arrays of the right size are kept. `status` is not 0 without memory, and the copy is
@@ -198,6 +200,7 @@ contains
       self%twist(:, :) = source%twist
     end if
     self%bounds = source%bounds
+    self%folded = source%folded
     self%length = source%length
   end subroutine copy_from
 
@@ -218,6 +221,7 @@ contains
 
     call clear(self)
     self%length = source%length
+    self%folded = source%folded
     self%bounds = source%bounds
     if (allocated(source%factors)) call move_alloc(source%factors, self%factors)
     if (allocated(source%odd_factors)) call move_alloc(source%odd_factors, self%odd_factors)
@@ -241,17 +245,13 @@ contains
     half = plan%length/2
     status = merge(FUGE_ERR_SIZE, FUGE_ERR_CALL_ORDER, plan%length > 0)
     if (plan%length < 1 .or. size(kernel) /= half + 1) return
-    call allocate_line(plan%length, buffer, work, status)
+    call plan%whole%allocate_buffer(buffer, work, status)
     if (status /= FUGE_DONE) return
     work(:half + 1) = kernel
     do k = half + 1, plan%length - 1
       work(k + 1) = kernel(plan%length - k)
     end do
-    call plan%transform(work, status)
-    if (status /= FUGE_DONE) then
-      call release_buffer(buffer)
-      return
-    end if
+    call plan%whole%transform(buffer)
     do k = 0, half
       if (mod(plan%length, 2) == 1) then
         kernel(k) = work(2*k + 1)
@@ -295,16 +295,12 @@ contains
     even = 0.5_dp*even
     allocate (twist(2, n/2), stat=status)
     if (status == 0) then
-      call allocate_line(n, buffer, work, status)
+      call plan%whole%allocate_buffer(buffer, work, status)
     else
       status = FUGE_ERR_MEMORY
     end if
     if (status /= FUGE_DONE) return
-    if (plan%is_split()) then
-      call compute_long_twist(twist)
-    else
-      call compute_twist(twist)
-    end if
+    call fill_roots(2*n, twist)
     do j = 0, n/2
       ! Odd about N/2: kernel(j) becomes the value at j, kernel(n - j) that at n - j.
       kernel(j) = kernel(j) - kernel(n - j)
@@ -313,25 +309,12 @@ contains
       kernel(j) = -kernel(n - j)
     end do
     call twist_values(twist, kernel(:n - 1), work)
-    call plan%transform(work, status)
+    call plan%whole%transform(buffer)
     do j = 1, n/2
       odd(j) = work(2*j - 1)/(2.0_dp*real(n, dp))
     end do
     call release_buffer(buffer)
   end subroutine transform_padded
-
-  !> Room for the transform of `length` values, to be released if `status` is 0, not FUGE_ERR_MEMORY.
-  subroutine allocate_line(length, buffer, values, status)
-    integer, intent(in) :: length
-    type(c_ptr), intent(out) :: buffer
-    real(c_double), pointer, contiguous, intent(out) :: values(:)
-    integer, intent(out) :: status
-    real(c_double), pointer, contiguous :: columns(:, :)
-
-    call allocate_values(2*(length/2 + 1), 1, buffer, columns, status)
-    nullify (values)
-    if (status == FUGE_DONE) values => columns(:, 1)
-  end subroutine allocate_line
 
   !> y = the first values of the convolution of x with the kernel.
   !>
@@ -351,34 +334,59 @@ contains
 
     status = merge(FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE, self%length == 0 .or. plan%length == 0)
     if (self%length /= plan%length .or. self%length == 0 .or. max(size(x), size(y)) > self%length) return
-    if (present(softening) .and. allocated(self%odd_factors)) return
+    if (present(softening) .and. allocated(self%odd_factors) .and. .not. self%folded) return
     added = 0.0_dp
     if (present(softening)) added = softening*real(self%length, dp)
-    if (plan%is_split()) then
-      call convolve_split(plan%grid, self%factors, self%odd_factors, added, size(x), x, size(y), y, status)
-    else if (added > 0.0_dp) then
+    if (added > 0.0_dp) then
       call softer%copy_from(self, status)
       if (status /= 0) status = FUGE_ERR_MEMORY
       if (status /= FUGE_DONE) return
-      if (mod(self%length, 2) == 0) then
-        call soften(added, softer%factors)
-      else
-        softer%factors = softer%factors/(1.0_dp + added*softer%factors)
-      end if
-      call convolve_values(softer, plan%whole, size(x), x, size(y), y, status)
+      call soften_all(added, softer)
+      call convolve_values(softer, plan, size(x), x, size(y), y, status)
     else
-      call convolve_values(self, plan%whole, size(x), x, size(y), y, status)
+      call convolve_values(self, plan, size(x), x, size(y), y, status)
     end if
   end subroutine convolve
+
+  !> Soften all numbers of the spectrum.
+  pure subroutine soften_all(added, kernel)
+    real(dp), intent(in) :: added
+    type(convolution_kernel), intent(inout) :: kernel
+
+    if (size(kernel%factors, 1) == 3) then
+      call soften(added, kernel%factors)
+    else
+      kernel%factors = kernel%factors/(1.0_dp + added*kernel%factors)
+    end if
+    ! These are twice the numbers.
+    if (kernel%folded) kernel%odd_factors = kernel%odd_factors/(1.0_dp + 0.5_dp*added*kernel%odd_factors)
+  end subroutine soften_all
 
   !> As `convolve`, checked. The arrays have an explicit shape, because gfortran copies arrays to pass them as
   !> contiguous ones.
   subroutine convolve_values(self, plan, values, x, results, y, status)
     type(convolution_kernel), intent(in) :: self
-    type(fft_plan), intent(in) :: plan
+    type(line_plan), intent(in) :: plan
     integer, intent(in) :: values, results
     real(dp), intent(in) :: x(values)
     real(dp), intent(inout) :: y(results)
+    integer, intent(out) :: status
+
+    if (self%folded) then
+      call convolve_circles(self, plan%half, values, x, results, y, status)
+    else if (allocated(self%odd_factors)) then
+      call convolve_circles(self, plan%whole, values, x, results, y, status)
+    else
+      call convolve_whole(self, plan%whole, x, y, status)
+    end if
+  end subroutine convolve_values
+
+  !> The product on one circle.
+  subroutine convolve_whole(self, plan, x, y, status)
+    type(convolution_kernel), intent(in) :: self
+    type(fft_plan), intent(in) :: plan
+    real(dp), intent(in), contiguous :: x(:)
+    real(dp), intent(inout), contiguous :: y(:)
     integer, intent(out) :: status
     real(c_double), pointer, contiguous :: work(:)
     type(c_ptr) :: buffer
@@ -399,15 +407,63 @@ contains
     else
       y = work(:size(y))
     end if
-    if (allocated(self%twist)) then
-      call twist_values(self%twist, x, work)
-      call plan%transform(buffer)
-      call multiply_exchanging(self%odd_factors, work)
-      call plan%transform_back(buffer)
-      call add_untwisted(self%twist, work, y)
-    end if
     call release_buffer(buffer)
-  end subroutine convolve_values
+  end subroutine convolve_whole
+
+  !> The product on two circles, each of the length of `plan`; x and y have at most twice as many values.
+  subroutine convolve_circles(self, plan, values, x, results, y, status)
+    type(convolution_kernel), intent(in), target :: self
+    type(fft_plan), intent(in), target :: plan
+    integer, intent(in) :: values, results
+    real(dp), intent(in), target :: x(values)
+    real(dp), intent(inout) :: y(results)
+    integer, intent(out) :: status
+    type(circle_pair) :: pair
+    type(c_ptr) :: even, odd
+    integer :: first
+
+    call plan%allocate_buffer(even, pair%even, status)
+    if (status /= FUGE_DONE) return
+    call plan%allocate_buffer(odd, pair%odd, status)
+    if (status == FUGE_DONE) then
+      ! By addresses, because no pointer may be associated with arguments that are read only.
+      call c_f_pointer(c_loc(self), pair%kernel)
+      call c_f_pointer(c_loc(plan), pair%plan)
+      call c_f_pointer(c_loc(x), pair%x, shape(x))
+      if (is_folded(self%length)) then
+        call run_in_parts(2, pair)
+      else
+        ! Waking another thread would take as long.
+        call pair%do_part(0, 2)
+        call pair%do_part(1, 2)
+      end if
+      first = min(plan%length, results)
+      call copy_exchanged(pair%even, y(:first))
+      call copy_exchanged(pair%even, y(first + 1:))
+      call add_untwisted(self%twist, 1.0_dp, pair%odd, y(:first))
+      call add_untwisted(self%twist, -1.0_dp, pair%odd, y(first + 1:))
+      call release_buffer(odd)
+    end if
+    call release_buffer(even)
+  end subroutine convolve_circles
+
+  !> The product on the circle of sums (`part` 0) or of differences; `parts` is 2.
+  subroutine convolve_circle(self, part, parts)
+    class(circle_pair), intent(inout) :: self
+    integer, intent(in) :: part, parts
+
+    if (part < parts - 1) then
+      call fold_values(self%x, self%even)
+      call self%plan%transform(c_loc(self%even))
+      call multiply_packed(self%kernel%factors, self%even)
+      call self%plan%transform_back(c_loc(self%even))
+    else
+      call twist_values(self%kernel%twist, self%x, self%odd)
+      call self%plan%transform(c_loc(self%odd))
+      call multiply_exchanging(self%kernel%odd_factors, self%odd)
+      call self%plan%transform_back(c_loc(self%odd))
+    end if
+  end subroutine convolve_circle
 
   !> Multiply the transform of pairs of values, `z` (real and imaginary parts), by the spectrum, and exchange
   !> the parts, as transform_back takes them.
@@ -475,40 +531,63 @@ contains
     end do
   end subroutine multiply_numbers
 
-  !> z_j = (x_j - i x_(j+N/2)) exp(-i pi j/N), x continued by zeros; `twist` (2, N/2).
+  !> The sums of the values of x half a circle apart, x continued by zeros; `z` (N + 2) for N of them.
+  pure subroutine fold_values(x, z)
+    real(dp), intent(in), contiguous :: x(:)
+    real(dp), intent(inout), contiguous :: z(:)
+    integer :: first
+
+    first = min(size(x), size(z) - 2)
+    z(:first) = x(:first)
+    z(first + 1:) = 0.0_dp
+    z(:size(x) - first) = z(:size(x) - first) + x(first + 1:)
+  end subroutine fold_values
+
+  !> z_j = (d_j - i d_(j+N/2)) exp(-i pi j/N) for the differences d_j = x_j - x_(j+N), x continued by zeros; `twist`
+  !> (2, N/2).
   pure subroutine twist_values(twist, x, z)
     real(dp), intent(in), contiguous :: twist(:, :), x(:)
     real(dp), intent(inout), contiguous :: z(:)
-    integer :: both, half, j, single
+    integer :: first
 
-    half = size(twist, 2)
-    both = max(size(x) - half, 0)
-    single = min(size(x), half)
-    do j = 1, both
-      z(2*j - 1) = twist(1, j)*x(j) - twist(2, j)*x(j + half)
-      z(2*j) = -(twist(2, j)*x(j) + twist(1, j)*x(j + half))
-    end do
-    do j = both + 1, single
-      z(2*j - 1) = twist(1, j)*x(j)
-      z(2*j) = -twist(2, j)*x(j)
-    end do
-    z(2*single + 1:) = 0.0_dp
+    first = min(size(x), 2*size(twist, 2))
+    z = 0.0_dp
+    call add_twisted(twist, 1.0_dp, x(:first), z)
+    call add_twisted(twist, -1.0_dp, x(first + 1:), z)
   end subroutine twist_values
 
-  !> Add to y what z, its parts exchanged, stands for: z_j exp(i pi j/N) = y_j - i y_(j+N/2); `twist` (2, N/2).
-  pure subroutine add_untwisted(twist, z, y)
-    real(dp), intent(in), contiguous :: twist(:, :), z(:)
-    real(dp), intent(inout), contiguous :: y(:)
-    integer :: both, half, j
+  !> Add `factor` times x, at most N values, to what is twisted.
+  pure subroutine add_twisted(twist, factor, x, z)
+    real(dp), intent(in), contiguous :: twist(:, :), x(:)
+    real(dp), intent(in) :: factor
+    real(dp), intent(inout), contiguous :: z(:)
+    integer :: half, j
 
     half = size(twist, 2)
-    both = max(size(y) - half, 0)
-    do j = 1, both
-      y(j) = y(j) + (twist(1, j)*z(2*j) - twist(2, j)*z(2*j - 1))
-      y(j + half) = y(j + half) - (twist(2, j)*z(2*j) + twist(1, j)*z(2*j - 1))
+    do j = 1, min(size(x), half)
+      z(2*j - 1) = z(2*j - 1) + factor*twist(1, j)*x(j)
+      z(2*j) = z(2*j) + factor*twist(2, j)*x(j)
     end do
-    do j = both + 1, min(size(y), half)
-      y(j) = y(j) + (twist(1, j)*z(2*j) - twist(2, j)*z(2*j - 1))
+    do j = 1, size(x) - half
+      z(2*j - 1) = z(2*j - 1) + factor*twist(2, j)*x(j + half)
+      z(2*j) = z(2*j) - factor*twist(1, j)*x(j + half)
+    end do
+  end subroutine add_twisted
+
+  !> Add `factor` times what z, its parts exchanged, stands for to y, at most N values: z_j exp(i pi j/N) =
+  !> y_j - i y_(j+N/2); `twist` (2, N/2).
+  pure subroutine add_untwisted(twist, factor, z, y)
+    real(dp), intent(in), contiguous :: twist(:, :), z(:)
+    real(dp), intent(in) :: factor
+    real(dp), intent(inout), contiguous :: y(:)
+    integer :: half, j
+
+    half = size(twist, 2)
+    do j = 1, min(size(y), half)
+      y(j) = y(j) + factor*(twist(1, j)*z(2*j) + twist(2, j)*z(2*j - 1))
+    end do
+    do j = 1, size(y) - half
+      y(j + half) = y(j + half) + factor*(twist(2, j)*z(2*j) - twist(1, j)*z(2*j - 1))
     end do
   end subroutine add_untwisted
 

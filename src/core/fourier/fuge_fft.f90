@@ -2,9 +2,8 @@
 !>
 !> An even number of values is transformed as half as many complex numbers, in place: value 2j + 1 is the
 !> imaginary part that belongs to value 2j, and the caller separates the two (fuge_convolution). FFTW plans
-!> that in a small fraction of the time that it takes for real values. Grids (fuge_grid_convolution) and long lines
-!> (fuge_split_plan) are made of short lines, each transformed from one buffer to another, which is faster where both
-!> stay in cache. Where a grid is transformed as a whole (fuge_grid_waves), its values are not packed.
+!> that in a small fraction of the time that it takes for real values. Grids (fuge_grid_convolution) are made of
+!> short lines, each transformed from one buffer to another, which is faster where both stay in cache. Where a grid is transformed as a whole (fuge_grid_waves), its values are not packed.
 !>
 !> The whole process shares one planner of FFTW, under a lock of this module: a process that is forked waits for it. The
 !> first plan also switches on FFTW's own lock, for a host program that plans transforms in another thread at the same
@@ -25,7 +24,7 @@ module fuge_fft
   implicit none
   private
 
-  public :: allocate_values, good_length, release_buffer
+  public :: allocate_values, fast_length, good_length, release_buffer
 
   !> Complex numbers from which on a transform is long.
   integer, parameter :: LONG = 4096
@@ -102,6 +101,32 @@ contains
     length = 0
     if (best <= huge(length)) length = int(best)
   end function good_length
+
+  !> A length >= n that FFTW transforms in the least time without measuring; 0 if it exceeds the largest default
+  !> integer.
+  !>
+  !> Its estimate costs, for each prime factor 3, 5 or 7 about 1.5, 1.1 and 1.4 times as much as powers of two of the
+  !> same length.
+  pure function fast_length(n) result(length)
+    integer, intent(in) :: n
+    integer :: length
+    integer, parameter :: FACTORS(7) = [1, 3, 5, 7, 9, 15, 25]
+    real(dp), parameter :: WEIGHTS(7) = [1.0_dp, 1.5_dp, 1.1_dp, 1.4_dp, 2.3_dp, 1.5_dp, 1.4_dp]
+    real(dp) :: candidate, best
+    integer :: k
+
+    length = 0
+    best = huge(best)
+    do k = 1, size(FACTORS)
+      candidate = real(FACTORS(k), dp)
+      do while (candidate < real(n, dp))
+        candidate = 2.0_dp*candidate
+      end do
+      if (candidate > real(huge(n), dp) .or. candidate*WEIGHTS(k) >= best) cycle
+      best = candidate*WEIGHTS(k)
+      length = int(candidate)
+    end do
+  end function fast_length
 
   !> Plan transforms of `length` >= 1 values.
   !>

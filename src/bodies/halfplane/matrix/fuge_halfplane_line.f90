@@ -4,9 +4,9 @@ module fuge_halfplane_line
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_cell_elements, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_cell_elements, only: check_element, FUGE_CENTRE, FUGE_MEAN
-  use fuge_circle_split, only: fast_circle
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_2
   use fuge_elastic_moduli, only: check_e_star
+  use fuge_fft, only: fast_length, good_length
   use fuge_halfplane_influence, only: mean_log
   use fuge_hurwitz_zeta, only: hurwitz_zeta
   use fuge_kinds, only: dp
@@ -21,6 +21,8 @@ module fuge_halfplane_line
 
   !> Mean over the period of 2/pi |ln(2 sin(pi x))|: 4 Cl_2(pi/3)/pi^2.
   real(dp), parameter :: MEAN_TERM = 0.41132_dp
+  !> From here on the factors of a length count for more than a few cells more.
+  integer, parameter :: MANY_CELLS = 65536
   !> A grid of fewer cells is not made by `coarsen`.
   integer, parameter :: FEWEST_CELLS = 32
 
@@ -74,7 +76,8 @@ contains
     type(fuge_info), intent(inout) :: info
 
     length = line%cells
-    if (line%boundary == FUGE_FREE) length = fast_circle(length)
+    if (line%boundary == FUGE_FREE) length = merge(fast_length(line%cells), good_length(line%cells), &
+                                                   line%cells > MANY_CELLS)
     if (length < 1 .or. (line%boundary == FUGE_FREE .and. length > (huge(length) - 1)/2)) then
       call report(info, FUGE_ERR_MEMORY, 'n = '//text(line%cells)//' needs a circle of ' &
                   //text(2.0_dp*real(line%cells, dp))//' cells in ' &

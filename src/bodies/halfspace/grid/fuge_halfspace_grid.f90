@@ -3,7 +3,7 @@ module fuge_halfspace_grid
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_cell_elements, only: FUGE_FREE, FUGE_PERIODIC, FUGE_MEAN
   use fuge_constants, only: PI, LARGEST_EXPONENT_OF_4
-  use fuge_grid_plan, only: fast_length
+  use fuge_fft, only: fast_length
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_rectangle_checks, only: check_area_element, check_area_modulus
