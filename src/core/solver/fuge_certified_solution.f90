@@ -39,7 +39,6 @@ contains
     type(fuge_info), intent(inout) :: info
     type(fuge_violation) :: violation
     type(point_space) :: space
-    real(dp) :: distance
     integer :: motion
 
     call find_violation(operator, problem, solution, violation, info, enough=tolerance)
@@ -58,10 +57,10 @@ contains
     else if (info%residual > tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' is above the tolerance ' &
                   //text(tolerance)//': the operator may be too badly conditioned for double precision')
-      call softly_held(problem, solution, space, motion, distance)
+      motion = softly_held(problem, solution, space)
       if (motion > 0) call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' is above the ' &
-        //'tolerance '//text(tolerance)//': motion '//index_text(motion)//' reaches '//text(distance)//' on its ' &
-        //'spring, beside which gaps have no digits; choose a stiffer spring or none, or FUGE_ITERATIVE')
+        //'tolerance '//text(tolerance)//': the spring of motion '//index_text(motion)//' is too soft beside the ' &
+        //'points, whose gaps lose their digits; choose a stiffer spring or none, or FUGE_ITERATIVE for a matrix')
     else if (info%status == FUGE_DONE &
              .and. info%force_error > max(MOST_FORCE_ERROR, MOST_OF_TOLERANCE*tolerance)) then
       call report(info, FUGE_WARN_ILL_CONDITIONED, 'the forces may be wrong by '//text(info%force_error)//' of the ' &

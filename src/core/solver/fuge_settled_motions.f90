@@ -20,8 +20,8 @@ module fuge_settled_motions
   real(dp), parameter :: NEGLIGIBLE = 1.0e-13_dp
   !> Motions change by at most this many units in the last place of w/s.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
-  !> A spring is too soft for gaps beside its motion if that moves points by this multiple of their depth.
-  real(dp), parameter :: FAR = 1.0e8_dp
+  !> A spring is too soft for gaps beside its motion below this fraction of the stiffness of the contact.
+  real(dp), parameter :: SOFT = 1.0e-12_dp
 
 contains
 
@@ -76,26 +76,25 @@ contains
                                               sqrt(huge(rounding))*min(stiffness, 1.0_dp))/stiffness
   end function rounding_on_springs
 
-  !> The number of the motion on a spring beside which the gaps of the `solution` have hardly any digits, because it
-  !> moves points far more than these are pressed; 0 if there is none. `distance`: how far.
-  subroutine softly_held(problem, solution, space, motion, distance)
+  !> The number of the motion on the softest spring, if that is softer than the points in contact by more digits than
+  !> their gaps can tell beside it; else 0.
+  function softly_held(problem, solution, space) result(motion)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution), intent(in) :: solution
     type(point_space), intent(in) :: space
-    integer, intent(out) :: motion
-    real(dp), intent(out) :: distance
-    real(dp) :: moved(problem%mode_count())
+    integer :: motion
+    real(dp) :: arm(problem%mode_count()), softness(problem%mode_count())
 
     motion = 0
-    distance = 0.0_dp
     if (problem%spring_count() < 1) return
-    moved = problem%arms()
-    call space%raise(moved)
-    moved = merge(moved*abs(solution%motion), 0.0_dp, problem%motions_on_springs())
-    motion = maxloc(moved, dim=1)
-    distance = moved(motion)
-    if (.not. distance > FAR*depth_of_contact(problem, solution, space)) motion = 0
-  end subroutine softly_held
+    arm = problem%arms()
+    call space%raise(arm)
+    softness = huge(softness)
+    where (problem%motions_on_springs() .and. arm > 0.0_dp) softness = problem%stiffnesses()/arm/arm
+    motion = minloc(softness, dim=1)
+    if (.not. softness(motion)*depth_of_contact(problem, solution, space) &
+        < SOFT*space%largest(maxval(abs(solution%force)))) motion = 0
+  end function softly_held
 
   !> The largest distance of a point that carries from its stop before it gives way, length.
   function depth_of_contact(problem, solution, space) result(depth)
