@@ -122,8 +122,8 @@ contains
     type(fuge_info), intent(inout) :: info
 
     if (status == FUGE_ERR_OVERFLOW) then
-      call report(info, status, what//' '//text(number)//': '//fuge_status_text(status) &
-                  //': choose units in which forces and lengths are nearer to 1')
+      call report(info, status, what//' '//text(number)//': the displacements are too large: choose units in which ' &
+                  //'forces and lengths are nearer to 1')
     else if (status < 0 .and. status >= LOWEST_STATUS) then
       call report(info, status, what//' '//text(number)//': '//fuge_status_text(status))
     else
