@@ -9,7 +9,7 @@ module fuge_matrix_operator
   use fuge_matrix_survey, only: matrix_survey, survey_matrix
   use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE, FUGE_ERR_POINTER, &
     FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, FUGE_ERR_OPTION, FUGE_ERR_OVERFLOW
   use fuge_threads, only: run_in_parts, share, thread_team, threads_here, usable_threads, work_in_parts
   implicit none
@@ -151,6 +151,8 @@ contains
 
     call multiply(self, force, displacement)
     status = FUGE_DONE
+    ! Coefficients are finite, so forces are too large for them.
+    if (.not. all(ieee_is_finite(displacement)) .and. all(ieee_is_finite(force))) status = FUGE_ERR_OVERFLOW
   end subroutine apply
 
   !> The displacements by forces, and their magnitudes; threads share the rows if there are many.

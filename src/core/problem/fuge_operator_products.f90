@@ -121,7 +121,10 @@ contains
     character(len=*), intent(in) :: what
     type(fuge_info), intent(inout) :: info
 
-    if (status < 0 .and. status >= LOWEST_STATUS) then
+    if (status == FUGE_ERR_OVERFLOW) then
+      call report(info, status, what//' '//text(number)//': the displacements are too large: choose units in which ' &
+                  //'forces and lengths are nearer to 1')
+    else if (status < 0 .and. status >= LOWEST_STATUS) then
       call report(info, status, what//' '//text(number)//': '//fuge_status_text(status))
     else
       call report(info, FUGE_ERR_CALLBACK, what//' '//text(number)//': the operator returned status '//text(status))

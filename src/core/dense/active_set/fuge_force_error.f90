@@ -9,7 +9,7 @@ module fuge_force_error
   use fuge_canonical_problem, only: canonical_problem
   use fuge_contact_solution, only: contact_solution
   use fuge_contact_states, only: is_at_stop, FUGE_AT_LOWER_STOP
-  use fuge_displacements, only: add_elastic_displacement, displacement_magnitude_at
+  use fuge_displacements, only: add_elastic_displacement, displacement_magnitude, displacement_magnitude_at
   use fuge_kinds, only: dp
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: solve_set
@@ -39,6 +39,8 @@ module fuge_force_error
     logical, allocatable :: contact(:)
     !> The rounding of each gap by modes and prescribed motions, length; not allocated if there is none.
     real(dp), allocatable :: length(:)
+    !> That by coefficients; not allocated if there is none.
+    real(dp), allocatable :: rounding(:)
     !> A column of alpha; forces that answer to one at a point, and changes of forces; gaps that are left open.
     real(dp), allocatable :: column(:), force(:), force_change(:), open(:)
   end type estimate_arrays
@@ -49,18 +51,21 @@ contains
   !> rounding means that it does not see. At most 1, where no digit is known; 0 without forces.
   !>
   !> `canonical`, `alpha` and `factor` those of the `solution` of `problem`, in which a refinement has left its error;
-  !> `motion` (m) in the given modes. Error: FUGE_ERR_MEMORY.
-  subroutine estimate_force_error(canonical, alpha, factor, problem, motion, solution, force_error, info)
+  !> `motion` (m) in the given modes; `rounds`: the coefficients are sums that were rounded. The arguments are nine,
+  !> because only few problems have such. Error: FUGE_ERR_MEMORY.
+  subroutine estimate_force_error(canonical, alpha, factor, problem, motion, rounds, solution, force_error, info)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in), contiguous :: alpha(:, :)
     type(kkt_factor), intent(in) :: factor
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: motion(:)
+    logical, intent(in) :: rounds
     type(contact_solution), intent(in) :: solution
     real(dp), intent(out) :: force_error
     type(fuge_info), intent(inout) :: info
     type(estimate_arrays) :: arrays
     real(dp) :: by_modes, by_set, largest, worst
+    integer :: stat
 
     force_error = 0.0_dp
     largest = maxval(abs(solution%force))
@@ -69,6 +74,13 @@ contains
     if (factor%regularisation > 0.0_dp) return
     by_modes = 0.0_dp
     by_set = 0.0_dp
+    if (rounds) then
+      call make_room(arrays, solution, info)
+      allocate (arrays%rounding(size(solution%force)), stat=stat)
+      call require_memory(stat, 'the estimated error of', size(solution%force), 'forces', info)
+      if (info%failed()) return
+      arrays%rounding = epsilon(worst)*displacement_magnitude(alpha, canonical%datum, arrays%contact, solution%force)
+    end if
     if (.not. canonical%plain) call error_by_modes(canonical, factor, problem, motion, solution, arrays, by_modes, info)
     if (.not. info%failed()) call error_by_contact_set(canonical, alpha, factor, solution, arrays, by_set, info)
     if (info%failed()) return
@@ -107,7 +119,7 @@ contains
     real(dp) :: load(size(motion)), free_motion(size(canonical%load))
     real(dp), allocatable :: gap_change(:), load_change(:)
     logical :: exact(size(motion))
-    integer :: k, stat
+    integer :: first, k, stat
 
     error = 0.0_dp
     exact = exact_modes(problem)
@@ -116,10 +128,15 @@ contains
     allocate (arrays%length(size(solution%force)), stat=stat)
     call require_memory(stat, 'the estimated error of', size(solution%force), 'forces', info)
     if (stat /= 0) return
+    ! A motion in orthogonal modes may be far larger at a point than in the given ones. That of a translation is exact.
+    first = merge(2, 1, canonical%has_translation)
+    if (all(exact)) first = size(free_motion) + 1
     do k = 1, size(arrays%length)
-      arrays%length(k) = mode_rounding_at(problem, exact, motion, k)
+      arrays%length(k) = max(mode_rounding_at(problem, exact, motion, k), &
+                             epsilon(error)*sum(abs(canonical%modes(k, first:)*solution%motion(first:))))
       arrays%open(k) = gap_rounding_at(problem, k)
     end do
+    if (allocated(arrays%rounding)) arrays%length = arrays%length + arrays%rounding
     load = load_rounding(problem, exact, solution%force)
     if (.not. (any(arrays%length > 0.0_dp) .or. any(load > 0.0_dp) .or. any(abs(arrays%open) > 0.0_dp))) then
       deallocate (arrays%length)

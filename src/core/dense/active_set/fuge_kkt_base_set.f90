@@ -25,6 +25,8 @@ module fuge_kkt_base_set
   !> Threads share the gathering of blocks with as many points as this.
   integer, parameter :: MANY_POINTS = 384
 
+  public :: stand_in_compliance
+
   !> Its components are for the factor that extends it.
   type, public :: kkt_base_set
     !> Points of the base set, and the position of each point in it (0: not in it).
@@ -231,11 +233,11 @@ contains
   end function augmentation_entries
 
   !> A compliance for a block that has none: the largest of alpha, or where alpha is zero one by which the loads
-  !> displace as much as the least gap or play; 1 without loads or lengths.
+  !> or the limits of forces displace as much as the least gap or play; 1 without forces or lengths.
   pure function stand_in_compliance(canonical) result(compliance)
     type(canonical_problem), intent(in) :: canonical
     real(dp) :: compliance
-    real(dp) :: datum, length
+    real(dp) :: datum, force, length
     integer :: k
 
     compliance = canonical%survey%largest()
@@ -249,8 +251,11 @@ contains
       if (abs(canonical%gap(k) - datum) > 0.0_dp) length = min(length, abs(canonical%gap(k) - datum))
       if (canonical%upper(k) > 0.0_dp) length = min(length, canonical%upper(k))
     end do
-    if (length < huge(length) .and. canonical%largest_load() > 0.0_dp) then
-      compliance = max(length/canonical%largest_load(), tiny(compliance)/epsilon(compliance)**2)
+    force = canonical%largest_load()
+    if (canonical%has_limits()) force = max(force, maxval(canonical%limit, mask=canonical%limit < huge(force)), &
+                                            maxval(canonical%limit_upper, mask=canonical%limit_upper < huge(force)))
+    if (length < huge(length) .and. force > 0.0_dp) then
+      compliance = max(length/force, tiny(compliance)/epsilon(compliance)**2)
     end if
   end function stand_in_compliance
 

@@ -10,6 +10,7 @@ module fuge_working_set
     FUGE_LIMITED_UPPER, FUGE_OPEN
   use fuge_displacements, only: add_elastic_displacement, add_open_displacement, displacement_magnitude_at
   use fuge_kinds, only: dp
+  use fuge_kkt_base_set, only: stand_in_compliance
   use fuge_kkt_factor, only: kkt_factor
   use fuge_kkt_solution, only: find_force_error, refine_solution, refinement_arrays, solve_set
   use fuge_status, only: FUGE_DONE, FUGE_ERR_MEMORY
@@ -175,7 +176,7 @@ contains
       end if
     end do
     ! Where alpha is zero, the factor regularises it by such a coefficient.
-    if (.not. largest > 0.0_dp) largest = 1.0e-12_dp
+    if (.not. largest > 0.0_dp) largest = 1.0e-12_dp*stand_in_compliance(canonical)
     zero_force = SIGN_TOLERANCE*(length/largest)
   end function largest_zero_force
 

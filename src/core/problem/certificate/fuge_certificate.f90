@@ -293,13 +293,13 @@ contains
     type(fuge_info), intent(inout) :: info
     type(point_space) :: space
     type(tile_lengths) :: at
-    real(dp), allocatable, dimension(:) :: largest, of_bodies, rounding, terms
+    real(dp), allocatable, dimension(:) :: largest, of_bodies, rounding, soft, terms
     real(dp) :: most, reach(pass%problem%mode_count()), widest
     integer :: k, n, stat
 
     space = operator%ranks()
     n = size(pass%force)
-    allocate (error(n), largest(n), of_bodies(n), rounding(n), terms(n), stat=stat)
+    allocate (error(n), largest(n), of_bodies(n), rounding(n), soft(n), terms(n), stat=stat)
     call require_memory(stat, 'the certificate of', n, 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
@@ -310,9 +310,10 @@ contains
     end if
     call multiply_with_magnitude(operator, largest, of_bodies, terms, info)
     if (info%failed()) return
+    soft = 0.0_dp
     if (associated(pass%compliance)) then
       call find_longest(pass, space, error, rounding)
-      call add_soft_terms(pass, largest, rounding, terms)
+      call find_soft_terms(pass, largest, rounding, soft)
     end if
     most = -huge(most)
     reach = spring_reach(pass%problem)
@@ -329,8 +330,11 @@ contains
                  rigid => abs(pass%gap(k)) + at%rigid_magnitude(mod(k - 1, TILE) + 1) &
                           + min(reach_at(pass, reach, k), widest))
         error(k) = at%error(mod(k - 1, TILE) + 1)
-        if (.not. pass%included(k) .or. magnitude > NO_SCALE*terms(k)) terms(k) = 0.0_dp
-        rounding(k) = NO_SCALE*terms(k)
+        rounding(k) = NO_SCALE*(terms(k) + soft(k))
+        if (.not. pass%included(k) .or. magnitude > rounding(k)) then
+          terms(k) = 0.0_dp
+          rounding(k) = 0.0_dp
+        end if
         ! Where no force displaces a point, its rigid gap may be the rounding of the gap and the motions.
         if (elastic <= 0.0_dp .and. magnitude <= NO_SCALE*rigid) rounding(k) = NO_SCALE*rigid
         terms(k) = merge(terms(k) + elastic, 0.0_dp, pass%included(k))
@@ -351,13 +355,13 @@ contains
     end where
   end subroutine take_out_rounding
 
-  !> Add to the `terms` (n) those of the compliances under forces as large as `largest` (n). Where the error is no force
+  !> The `terms` (n) of the compliances under forces as large as `largest` (n). Where the error is no force
   !> that the point may have at its stop, but a gap, they are no larger than the `longest` (n) lengths: the rounding of
   !> a force may displace a soft point by more than any length is rounded.
-  pure subroutine add_soft_terms(pass, largest, longest, terms)
+  pure subroutine find_soft_terms(pass, largest, longest, terms)
     type(certificate_pass), intent(in) :: pass
     real(dp), intent(in) :: largest(:), longest(:)
-    real(dp), intent(inout) :: terms(:)
+    real(dp), intent(out) :: terms(:)
     type(tile_lengths) :: at
     type(point_law) :: law_here
     real(dp) :: force, least, most, soft
@@ -365,6 +369,7 @@ contains
 
     do k = 1, size(terms)
       if (mod(k - 1, TILE) == 0) call pass%find_lengths(k, min(k + TILE - 1, size(terms)), at)
+      terms(k) = 0.0_dp
       if (.not. pass%compliance(k) > 0.0_dp .or. .not. pass%included(k)) cycle
       law_here = law(pass, k)
       least = 0.0_dp
@@ -374,9 +379,9 @@ contains
       force = pass%force(k) - at%error(mod(k - 1, TILE) + 1)/pass%compliance(k)
       soft = pass%compliance(k)*largest(k)
       if (force < least .or. force > most) soft = min(soft, longest(k))
-      terms(k) = terms(k) + soft
+      terms(k) = soft
     end do
-  end subroutine add_soft_terms
+  end subroutine find_soft_terms
 
   !> `longest` (n): the largest term of a gap on the body of each point. `lengths` (n) is work space.
   subroutine find_longest(pass, space, lengths, longest)
