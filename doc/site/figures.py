@@ -11,6 +11,7 @@ import sys
 
 COLUMNS = ("files", "lines", "folders", "modules", "procedures", "C functions", "public names")
 TABLE = re.compile(r"(<!-- figures begin -->\n).*(<!-- figures end -->)", re.S)
+INTERFACE = re.compile(r"^ *(?:abstract )?interface\b.*?^ *end interface", re.M | re.S)
 PROCEDURE = re.compile(r"^ *(?!end\b)(?:[a-z][\w*=()]* +)*(?:subroutine|function) +\w+ *\(.*$", re.M | re.I)
 TOLERANCE = 0.03
 
@@ -29,7 +30,7 @@ def counts(root):
     place = {path.stem: component(source, path) for path in files}
     rows = {place[path.stem]: [0]*len(COLUMNS) for path in files}
     for path, text in texts.items():
-        heads = PROCEDURE.findall(re.sub(r"^ *(?:abstract )?interface\b.*?^ *end interface", "", text, flags=re.M | re.S))
+        heads = PROCEDURE.findall(INTERFACE.sub("", text))
         found = [1, path.read_text().count("\n"), 0, len(re.findall(r"^module \w+$", text, re.M)), len(heads),
                  sum("bind(c" in head.lower() for head in heads), 0]
         rows[place[path.stem]] = [sum(pair) for pair in zip(rows[place[path.stem]], found)]
@@ -50,7 +51,8 @@ def table(rows):
 
 
 def numbers(text):
-    return {name.strip(): list(map(int, row.split("|"))) for name, row in re.findall(r"^\|([^|]*\w *)\|([ \d|]*)\|$", text, re.M)}
+    rows = re.findall(r"^\|([^|]*\w *)\|([ \d|]*)\|$", text, re.M)
+    return {name.strip(): list(map(int, row.split("|"))) for name, row in rows}
 
 
 def main():

@@ -15,19 +15,21 @@ import subprocess
 import sys
 import textwrap
 
-FENCE = re.compile(r"^(```+|~~~+)")
+FENCED = re.compile(r"(^ *(?:```|~~~).*?^ *(?:```|~~~)~?$)", re.M | re.S)
 LINK = re.compile(r"\]\((?!\w+:)([^)\s#]+)(#[^)\s]*)?\)")
-NAME = re.compile(r"(?<!\[)`(\w+)`(?!\])")
+# A name as code, neither in a heading nor a link.
+NAME = re.compile(r"^#.*$|(?<!\[)`(\w+)`(?!\])", re.M)
 INDEX = re.compile(r"^<!-- index: (.*?) -->$", re.M)
+ANCHOR = re.compile(r"^\((fuge_\w+)\)=$", re.M)
 SECTION = re.compile(r"^/\* -+ (.*?) -+[ ]*(\*/)?$", re.M)
-DECLARED = re.compile(r"^(?:\w[\w *]*?\b(fuge_\w+)\(|\} (fuge_\w+);|typedef (?:struct (?=fuge_)\w+ |\w+ \(\*)(fuge_\w+))", re.M)
+DECLARED = re.compile(r"^(?:\w[\w *]*?\b(fuge_\w+)\(|\} (fuge_\w+);|typedef (?:struct fuge_\w+ |\w+ \(\*)(fuge_\w+))", re.M)
 # The beginnings of lines that nobody reads.
 GUARDS = re.compile(r"#(ifndef|define) \w+_H$|#(ifdef __cplusplus|endif|include <)|extern \"C\" {$|}$")
-LANGUAGES = {".f90": "fortran", ".f": "fortranfixed", ".pf": "fortran", ".c": "c", ".cpp": "cpp", ".py": "python",
-             ".sh": "sh", ".cmake": "cmake"}
 # The section of doc/index.md that is a table, with links to pages of all groups.
 CHOICES = "What do you have?"
-ORPHAN = "---\norphan: true\n---\n\n"
+# The beginning of the names of pages that are not in the tree: each has the text of a file.
+FILE = "file_"
+LANGUAGES = ("f90", "c", "cpp", "py", "sh", "cmake")
 
 
 class Pages:
@@ -37,7 +39,8 @@ class Pages:
         self.root, self.work, self.text = root, work, {}
         self.place = {root/"README.md": "index", root/"doc/index.md": "manual", root/"src/facade/fuge.f90": "fortran",
                       root/"python/fuge/__init__.py": "autoapi/fuge/index"}
-        self.names = {}
+        # Where names of Fortran and of C are described.
+        self.names, self.c_names = {}, {}
 
     def write(self):
         sources = [self.root/"README.md", self.root/"CONTRIBUTING.md", self.root/"CHANGELOG.md",
@@ -47,19 +50,16 @@ class Pages:
         headers = sorted([*self.root.glob("include/*.h"), *self.root.glob("src/mpi/include/*.h")])
         self.place |= {path: path.stem + "_h" for path in headers}
         bodies = {path: header(path.read_text()) for path in headers}
-        self.c_names = {name: f"{path.stem}_h.md#{at}" for path in headers for name, at in bodies[path][1].items()}
+        self.c_names = {name: f"{path.stem}_h.md#{name}" for path in headers for name in ANCHOR.findall(bodies[path])}
         for path in headers:
-            self.put(self.place[path], self.linked(path, f"# {path.name}\n\n{bodies[path][0]}"))
+            self.text[self.place[path]] = self.linked(path, f"# {path.name}\n\n{bodies[path]}")
         self.fortran()
         for path in sources:
-            self.put(self.place[path], self.linked(path, path.read_text()))
+            self.text[self.place[path]] = self.linked(path, path.read_text())
         self.text["manual"] += toctree("Reference", ["fuge_h"])
         self.text["index"] += self.contents()
         for name, text in self.text.items():
             (self.work/f"{name}.md").write_text(text)
-
-    def put(self, name, text):
-        self.text[name] = text
 
     def fortran(self):
         """The Fortran interface: a page for each component, and one that lists them."""
@@ -78,9 +78,9 @@ class Pages:
             text = "".join(texts)
             self.names |= {name: f"{part}.md#{name}" for name in re.findall(r"^### (fuge_\w+)$", text, re.M)}
             self.names |= {name: f"{part}.md" for name in re.findall(r"^- `(FUGE_\w+)`", text, re.M)}
-            self.put(part, f"# Fortran: {part[8:]}\n\n{text}")
+            self.text[part] = f"# Fortran: {part[8:]}\n\n{text}"
         opening = re.sub(r"\(#(\w+)\)", lambda match: f"({self.names[match[1]]})", opening)
-        self.put("fortran", opening + toctree("", parts))
+        self.text["fortran"] = opening + toctree("", parts)
 
     def linked(self, path, text):
         """The text of a file with links to pages."""
@@ -98,17 +98,10 @@ class Pages:
             place = first.get(match[1]) or second.get(match[1])
             return f"[{match[0]}]({place})" if place else match[0]
 
-        out, fence = [], ""
-        for line in text.split("\n"):
-            mark = FENCE.match(line)
-            if mark and (not fence or line.strip() == fence):
-                fence = "" if fence else mark[1]
-            elif not fence:
-                line = LINK.sub(link, line)
-                line = line if line.startswith("#") else NAME.sub(refer, line)
-            out.append(line)
+        parts = FENCED.split(text)
+        parts[::2] = [NAME.sub(refer, LINK.sub(link, part)) for part in parts[::2]]
         # Main entries come first in a search.
-        return INDEX.sub(lambda match: f"```{{index}} ! {match[1].replace(', ', ', ! ')}\n```", "\n".join(out))
+        return INDEX.sub(lambda match: f"```{{index}} ! {match[1].replace(', ', ', ! ')}\n```", "".join(parts))
 
     def page_of(self, path):
         """The page of a file; one with its text, or its names if it is a folder, is made where there is none."""
@@ -117,14 +110,14 @@ class Pages:
         short = path.relative_to(self.root).as_posix()
         if not path.exists():
             raise SystemExit(f"fuge: a page links to {short}, which is not there")
-        self.place[path] = name = "file_" + re.sub(r"\W", "_", short)
-        if path.is_dir():
-            text = f"# {short}\n\n" + "".join(f"- {item.name}\n" for item in sorted(path.iterdir()))
-        elif path.suffix == ".ipynb":
-            text = self.notebook(path)
+        is_notebook = path.suffix == ".ipynb"
+        self.place[path] = name = ("notebook_" if is_notebook else FILE) + re.sub(r"\W", "_", short)
+        if is_notebook:
+            self.text[name] = self.notebook(path)
         else:
-            text = f"# {short}\n\n{fenced(path.read_text(), LANGUAGES.get(path.suffix, 'text'))}"
-        self.put(name, text if path.suffix == ".ipynb" else ORPHAN + text)
+            text = "\n".join(sorted(item.name for item in path.iterdir())) if path.is_dir() else path.read_text()
+            language = path.suffix[1:] if path.suffix[1:] in LANGUAGES else "text"
+            self.text[name] = f"---\norphan: true\n---\n\n# {short}\n\n{fenced(text, language)}"
         return name
 
     def notebook(self, path):
@@ -142,10 +135,6 @@ class Pages:
                     parts.append(f"![A picture that the cell above draws]({picture.name})")
         return "\n\n".join(parts)
 
-    def is_orphan(self, name):
-        """Is it no page of the tree, only the text of a file?"""
-        return self.text.get(name, "").startswith(ORPHAN)
-
     def contents(self):
         """The tree of the pages: the sections of doc/index.md, and the pages to which they link."""
         named, trees = {"index"}, toctree("", ["manual"])
@@ -153,7 +142,7 @@ class Pages:
             title, _, text = section.partition("\n")
             places = dict.fromkeys(self.place[(self.root/"doc"/match[1]).resolve()] for match in LINK.finditer(text))
             if title != CHOICES:
-                trees += toctree(title, [name for name in places if name not in named and not self.is_orphan(name)])
+                trees += toctree(title, [name for name in places if name not in named and not name.startswith(FILE)])
                 named.update(places)
         return trees
 
@@ -167,13 +156,9 @@ def fenced(text, language):
     return f"~~~~{language}\n{text.rstrip()}\n~~~~\n"
 
 
-def slug(names):
-    return re.sub(r"[^\w\- ]", "", names.lower()).replace(" ", "-")
-
-
 def header(text):
-    """The body of the page of a C header: headings, what comments say, and declarations; and the names' headings."""
-    page, names, level = "", {}, "###" if SECTION.search(text) else "##"
+    """The body of the page of a C header: headings, what comments say, and declarations."""
+    page, level = "", "###" if SECTION.search(text) else "##"
     for part in re.split(r"\n\n+", text):
         section = SECTION.match(part)
         if section:
@@ -183,10 +168,9 @@ def header(text):
         code = "\n".join(line for line in code.strip("\n").split("\n") if not GUARDS.match(line)).strip("\n")
         declared = ["".join(found) for found in DECLARED.findall(code)]
         if declared:
-            page += f"{level} {', '.join(declared)}\n\n"
-            names |= dict.fromkeys(declared, slug(", ".join(declared)))
+            page += "".join(f"({name})=\n" for name in declared) + f"{level} {', '.join(declared)}\n\n"
         page += said(comment or "") + (fenced(code, "c") + "\n" if code else "")
-    return page, names
+    return page
 
 
 def said(comment):
