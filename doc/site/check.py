@@ -26,7 +26,8 @@ LOOK = r"""() => {
   for (const name of document.querySelectorAll('code.literal')) {
     const width = 0.6 * name.textContent.length * parseFloat(getComputedStyle(name).fontSize)
     const lines = name.getClientRects().length
-    if (!/\s/.test(name.textContent) && width < innerWidth - 100 && lines > 1) said.push(`${name.textContent} is broken`)
+    const isName = !/\s/.test(name.textContent)
+    if (isName && width < innerWidth - 100 && lines > 1) said.push(`${name.textContent} is broken`)
   }
   for (const image of document.images) if (!image.naturalWidth) said.push(`no picture ${image.src}`)
   return said

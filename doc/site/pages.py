@@ -22,7 +22,7 @@ NAME = re.compile(r"^#.*$|(?<!\[)`(\w+)`(?!\])", re.M)
 INDEX = re.compile(r"^<!-- index: (.*?) -->$", re.M)
 ANCHOR = re.compile(r"^\((fuge_\w+)\)=$", re.M)
 SECTION = re.compile(r"^/\* -+ (.*?) -+[ ]*(\*/)?$", re.M)
-DECLARED = re.compile(r"^(?:\w[\w *]*?\b(fuge_\w+)\(|\} (fuge_\w+);|typedef (?:struct fuge_\w+ |\w+ \(\*)(fuge_\w+))", re.M)
+DECLARED = re.compile(r"^(?:\w[\w *]*?\b|typedef \w+ \(\*|\} |typedef struct \w+ )(fuge_\w+)\)?[(;]", re.M)
 # The beginnings of lines that nobody reads.
 GUARDS = re.compile(r"#(ifndef|define) \w+_H$|#(ifdef __cplusplus|endif|include <)|extern \"C\" {$|}$")
 # The section of doc/index.md that is a table, with links to pages of all groups.
@@ -56,7 +56,6 @@ class Pages:
         self.fortran()
         for path in sources:
             self.text[self.place[path]] = self.linked(path, path.read_text())
-        self.text["manual"] += toctree("Reference", ["fuge_h"])
         self.text["index"] += self.contents()
         for name, text in self.text.items():
             (self.work/f"{name}.md").write_text(text)
@@ -166,7 +165,7 @@ def header(text):
             part = part[section.end():] if section[2] else "/*" + part[section.end():]
         comment, code = re.match(r"\s*(/\*.*?\*/)?(.*)", part, re.S).groups()
         code = "\n".join(line for line in code.strip("\n").split("\n") if not GUARDS.match(line)).strip("\n")
-        declared = ["".join(found) for found in DECLARED.findall(code)]
+        declared = DECLARED.findall(code)
         if declared:
             page += "".join(f"({name})=\n" for name in declared) + f"{level} {', '.join(declared)}\n\n"
         page += said(comment or "") + (fenced(code, "c") + "\n" if code else "")
