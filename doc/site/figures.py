@@ -65,8 +65,7 @@ def main():
     off = shown.keys() - wanted.keys() | {name for name, row in wanted.items() if name not in shown
            or any(abs(a - b) > TOLERANCE*b for a, b in zip(shown[name], row, strict=True))}
     if off:
-        sys.exit(f"figures of {', '.join(sorted(off))} in {page} are off by more than 3 %: run\n"
-                 f"  python3 doc/site/figures.py . doc/architecture.md")
+        sys.exit(f"figures of {', '.join(sorted(off))} in {page} are off by more than 3 %: run doc/site/figures.py")
 
 
 if __name__ == "__main__":

@@ -16,7 +16,8 @@ import sys
 import textwrap
 
 FENCED = re.compile(r"(^ *(?:```|~~~).*?^ *(?:```|~~~)~?$)", re.M | re.S)
-LINK = re.compile(r"\]\((?!\w+:)([^)\s#]+)(#[^)\s]*)?\)")
+# A link to a file. Words that are the name of a page give way to its title.
+LINK = re.compile(r"(?:\[([\w.]+\.md))?\]\((?!\w+:)([^)\s#]+)(#[^)\s]*)?\)")
 # A name as code, neither in a heading nor a link.
 NAME = re.compile(r"^#.*$|(?<!\[)`(\w+)`(?!\])", re.M)
 INDEX = re.compile(r"^<!-- index: (.*?) -->$", re.M)
@@ -84,12 +85,12 @@ class Pages:
     def linked(self, path, text):
         """The text of a file with links to pages."""
         def link(match):
-            target = (path.parent/match[1]).resolve()
+            target = (path.parent/match[2]).resolve()
             if target.suffix in (".png", ".svg", ".csv") and target.exists():
                 shutil.copy(target, self.work)
                 return f"]({target.name})"
             page = self.page_of(target)
-            return f"]({page}.{'rst' if '/' in page else 'md'}{match[2] or ''})"
+            return f"{'[' if match[1] else ''}]({page}.{'rst' if '/' in page else 'md'}{match[3] or ''})"
 
         def refer(match):
             by_c = path.suffix == ".h" or path.name == "tutorial_c.md"
@@ -139,7 +140,7 @@ class Pages:
         named, trees = {"index"}, toctree("", ["manual"])
         for section in re.split(r"^## ", (self.root/"doc/index.md").read_text(), flags=re.M)[1:]:
             title, _, text = section.partition("\n")
-            places = dict.fromkeys(self.place[(self.root/"doc"/match[1]).resolve()] for match in LINK.finditer(text))
+            places = dict.fromkeys(self.place[(self.root/"doc"/match[2]).resolve()] for match in LINK.finditer(text))
             if title != CHOICES:
                 trees += toctree(title, [name for name in places if name not in named and not name.startswith(FILE)])
                 named.update(places)
