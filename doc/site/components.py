@@ -14,11 +14,13 @@ import textwrap
 
 # What a component holds, in a few words for its box.
 HOLDS = {
-    "core": "problem, engines, certificate, half-plane",
-    "area": "half-space, rings, Hertz",
-    "layers": "elastic layers, graded bodies",
-    "punch": "smooth and round punches, no grid",
-    "stress": "stresses inside, the largest",
+    "core": "problem, engines, certificate, proofs",
+    "elastic": "moduli, cells, fields inside",
+    "halfplane": "cells, edges of contact",
+    "halfspace": "rectangles",
+    "rings": "round bodies",
+    "layers": "coated and graded bodies",
+    "punches": "Hertz, smooth and round, no grid",
     "fe": "stiffness, pairs, bodies",
     "files": "results for ParaView",
     "facade": "the module fuge",
@@ -26,13 +28,12 @@ HOLDS = {
     "mpi": "surfaces over MPI",
     "sparse": "CHOLMOD",
 }
-SEVEN = {"core", "area", "layers", "punch", "stress", "fe", "files"}
-LINE_LENGTH = 18
+LIBRARY = {"core", "elastic", "halfplane", "halfspace", "rings", "layers", "punches", "fe", "files"}
 
 
 def arrows(table):
     """For each component those that it may use and reaches by no other one."""
-    used = {name.strip(): set(after.split()) for name, after in re.findall(r"^([^#:\n]+):(.*)$", table, re.M)}
+    used = {name: set(after.split()) for name, after in re.findall(r"^([^#\s]+)[^#:\n]*:(.*)$", table, re.M)}
 
     def reached(name):
         return used[name].union(*(reached(other) for other in used[name]))
@@ -40,7 +41,7 @@ def arrows(table):
 
 
 def words(name):
-    return textwrap.wrap(HOLDS.get(name, ""), LINE_LENGTH, break_on_hyphens=False)
+    return textwrap.wrap(HOLDS.get(name, ""), 18, break_on_hyphens=False)
 
 
 def graph(arrows_of):
@@ -48,7 +49,7 @@ def graph(arrows_of):
     lines = ['digraph { node [shape=box style="filled,rounded" fontname="Helvetica" fontsize=13 color="#9aa5b1"]',
              'edge [color="#4a5563" arrowsize=0.7] nodesep=0.2 ranksep=0.4']
     for name, targets in arrows_of.items():
-        fill = "#dcecf7" if name in SEVEN else "#fbe9d0"
+        fill = "#dcecf7" if name in LIBRARY else "#fbe9d0"
         text = "<br/>".join([f"<b>{name}</b>", *map(html.escape, words(name))])
         lines.append(f'"{name}" [label=<{text}> fillcolor="{fill}"]')
         lines += [f'"{name}" -> "{target}"' for target in targets]

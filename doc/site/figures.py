@@ -1,7 +1,7 @@
 """The figures of the source as a table in a page: figures.py ROOT PAGE [--check]
 
-A row for each component, the topmost folders of src/ with a CMakeLists.txt, between the marks `figures begin` and
-`figures end` of PAGE, which is doc/architecture.md. With --check nothing is written; the exit status says whether each
+A row for each component of src/components.txt, between the marks `figures begin` and `figures end` of PAGE, which is
+doc/architecture.md. With --check nothing is written; the exit status says whether each
 figure there is within 3 % of that of the source.
 """
 
@@ -13,13 +13,12 @@ COLUMNS = ("files", "lines", "folders", "modules", "procedures", "C functions", 
 TABLE = re.compile(r"(<!-- figures begin -->\n).*(<!-- figures end -->)", re.S)
 INTERFACE = re.compile(r"^ *(?:abstract )?interface\b.*?^ *end interface", re.M | re.S)
 PROCEDURE = re.compile(r"^ *(?!end\b)(?:[a-z][\w*=()]* +)*(?:subroutine|function) +\w+ *\(.*$", re.M | re.I)
-TOLERANCE = 0.03
 
 
-def component(source, path):
-    """The component of a file: the topmost of its folders that has a CMakeLists.txt."""
+def component(source, names, path):
+    """The component of a file: the topmost of its folders that has one of the names, else the topmost one."""
     folders = [folder for folder in path.parents if source in folder.parents]
-    return next((folder for folder in reversed(folders) if (folder/"CMakeLists.txt").exists()), folders[-1])
+    return next((folder for folder in reversed(folders) if folder.name in names), folders[-1])
 
 
 def counts(root):
@@ -27,19 +26,20 @@ def counts(root):
     source = root/"src"
     files = [path for path in sorted(source.rglob("*")) if path.suffix in (".f90", ".f", ".c", ".h", ".inc")]
     texts = {path: path.read_text().replace("&\n", "") for path in files}
-    place = {path.stem: component(source, path) for path in files}
-    rows = {place[path.stem]: [0]*len(COLUMNS) for path in files}
+    names = re.findall(r"^\w+", (source/"components.txt").read_text(), re.M)
+    place = {path: component(source, names, path) for path in files}
+    rows = {place[path]: [0]*len(COLUMNS) for path in files}
     for path, text in texts.items():
         heads = PROCEDURE.findall(INTERFACE.sub("", text))
         found = [1, path.read_text().count("\n"), 0, len(re.findall(r"^module \w+$", text, re.M)), len(heads),
                  sum("bind(c" in head.lower() for head in heads), 0]
-        rows[place[path.stem]] = [sum(pair) for pair in zip(rows[place[path.stem]], found)]
-    for folder in {path.parent for path in files}:
-        rows[component(source, folder/"file")][2] += 1
+        rows[place[path]] = [sum(pair) for pair in zip(rows[place[path]], found)]
+    for folder, name in {(path.parent, place[path]) for path in files}:
+        rows[name][2] += 1
+    defined = {path.stem: path for path in reversed(files)}
     for facade in re.findall(r"^ *use (\w+)$", texts[source/"facade/fuge.f90"], re.M):
-        text = next(text for path, text in texts.items() if path.stem == facade)
-        for module, names in re.findall(r"^ *use (\w+), *only: *(.*)$", text, re.M):
-            rows[place[module]][6] += len(names.split(","))
+        for module, public in re.findall(r"^ *use (\w+), *only: *(.*)$", texts[defined[facade]], re.M):
+            rows[place[defined[module]]][6] += len(public.split(","))
     return {folder.relative_to(source).as_posix(): row for folder, row in rows.items()}
 
 
@@ -63,7 +63,7 @@ def main():
         return
     shown, wanted = numbers(TABLE.search(text)[0]), numbers(new)
     off = shown.keys() - wanted.keys() | {name for name, row in wanted.items() if name not in shown
-           or any(abs(a - b) > TOLERANCE*b for a, b in zip(shown[name], row, strict=True))}
+           or any(abs(a - b) > 0.03*b for a, b in zip(shown[name], row, strict=True))}
     if off:
         sys.exit(f"figures of {', '.join(sorted(off))} in {page} are off by more than 3 %: run doc/site/figures.py")
 

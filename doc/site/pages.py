@@ -72,7 +72,7 @@ class Pages:
         opening, *sections = re.split(r"^(?=## )", whole.read_text(), flags=re.M)
         parts = {}
         for section in sections:
-            part = re.match(r"## (?:The module fuge_)?(\w+)", section)[1]
+            part = re.match(r"## (?:The module fuge_|bodies/)?(\w+)", section)[1]
             parts.setdefault("fortran_" + part, []).append(section)
         for part, texts in parts.items():
             text = "".join(texts)
