@@ -14,8 +14,8 @@ WIDTHS = (1280, 400)
 FIRST = {"uplift": "tutorial_structures", "misalignment": "tutorial_area", "tilt": "tutorial_fortran", "prove": "proof",
          "memory": "performance", "tableau": "tableau", "hertz": "theory_area", "certificate": "theory",
          "mortar": "tutorial_two_meshes", "find_package": "install", "FUGE_ERR_NO_EQUILIBRIUM": "errors",
-         "fuge_solve_dense": "fortran_core", "fuge_solve_smooth_punch": "fortran_punches", "fuge_set_gap": "fuge_core_h",
-         "hertz_ellipse": "autoapi/fuge/index"}
+         "fuge_solve_dense": "fortran_core", "fuge_solve_smooth_punch": "fortran_punches",
+         "fuge_set_gap": "fuge_core_h", "hertz_ellipse": "autoapi/fuge/index"}
 LOOK = r"""() => {
   const said = []
   const text = document.querySelector('article').cloneNode(true)
