@@ -41,7 +41,7 @@ int fuge_hertz_ellipse(double radius_x, double radius_y, double e_star, double l
  * with the Chebyshev polynomials U_k of the second kind.  A few dozen coefficients reach
  * rounding.
  *
- *     fuge_solve_smooth_punch -> fuge_smooth_get_... -> fuge_smooth_free */
+ *     fuge_solve_smooth_punch -> fuge_punch_get_... -> fuge_punch_free */
 
 /* The profile at n places x between lower and upper: set gap, the initial gap, length, and
  * slope, its derivative, no unit, at all of them.  Return 0; any other value, NaN and
@@ -49,7 +49,8 @@ int fuge_hertz_ellipse(double radius_x, double radius_y, double e_star, double l
  * an exception. */
 typedef int (*fuge_smooth_profile)(int n, const double *x, double *gap, double *slope, void *user);
 
-typedef struct fuge_smooth fuge_smooth;
+/* The contact of a punch, smooth or round. */
+typedef struct fuge_punch fuge_punch;
 
 /* Solve.
  *   profile, user  in   the function, and the pointer it gets as user (may be NULL)
@@ -68,54 +69,14 @@ typedef struct fuge_smooth fuge_smooth;
  * action outside the profile), FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW. */
 int fuge_solve_smooth_punch(fuge_smooth_profile profile, void *user, double lower, double upper,
                             double e_star, double force, const double *moment,
-                            fuge_smooth **contact, char *message, size_t len);
-
-/* Free and set *contact to NULL; NULL and *contact == NULL are fine. */
-void fuge_smooth_free(fuge_smooth **contact);
-
-typedef struct fuge_smooth_report {
-  int iterations;               /* series formed */
-  int coefficients;             /* number of coefficients of the pressure */
-  int reserved_int[6];
-  double left, right;           /* ends of the contact; length */
-  double half_width;            /* more accurate than (right - left)/2 far from x = 0 */
-  double force, moment;         /* moment about x = 0 */
-  double approach, tilt;        /* the punch moves by approach + tilt x; the displacement by a
-                                   line load is zero at the distance 2 (upper - lower) */
-  double residual;              /* certificate: largest scaled violation of the problem */
-  double end_error;             /* estimated error of the ends, relative to the half width */
-  double pressure_error;        /* estimated error of the pressure, relative to its maximum */
-  double reserved[8];
-} fuge_smooth_report;
-
-/* A contact does not change once it is solved, and holds no message: several threads may
- * read it at once.  FUGE_ERR_POINTER, FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE for a place or an
- * initial gap. */
-int fuge_smooth_get_report(const fuge_smooth *contact, fuge_smooth_report *report,
-                           char *message, size_t len);
-
-/* Pressure at count >= 0 places x; force per length^2, 0 outside the contact. */
-int fuge_smooth_get_pressure(const fuge_smooth *contact, int count, const double *x,
-                             double *pressure, char *message, size_t len);
-
-/* Gap under load at count >= 0 places x from the initial gaps there; length.  gap may be
- * the same array as x or initial_gap. */
-int fuge_smooth_get_gap(const fuge_smooth *contact, int count, const double *x,
-                        const double *initial_gap, double *gap, char *message, size_t len);
-
-/* Coefficients of the pressure; force per length^2.  Only the first capacity are written;
- * fuge_smooth_get_report has their number. */
-int fuge_smooth_get_coefficients(const fuge_smooth *contact, int capacity, double *coefficients,
-                                 char *message, size_t len);
+                            fuge_punch **contact, char *message, size_t len);
 
 /* ---- round punches ------------------------------------------------------
  *
  * The same for a punch of revolution on a half-space: one disc of contact, whose radius is
  * the only unknown.
  *
- *     fuge_solve_round_punch -> fuge_round_get_... -> fuge_round_free */
-
-typedef struct fuge_round fuge_round;
+ *     fuge_solve_round_punch -> fuge_punch_get_... -> fuge_punch_free */
 
 /* Solve.
  *   profile, user           in   as above, x being the distance from the axis; the profile has
@@ -135,7 +96,7 @@ typedef struct fuge_round fuge_round;
  * FUGE_ERR_OVERFLOW, FUGE_ERR_CALLBACK. */
 int fuge_solve_round_punch(fuge_smooth_profile profile, void *user, double reach, double e_star,
                            const double *load, const double *approach, const double *radius,
-                           fuge_round **contact, char *message, size_t len);
+                           fuge_punch **contact, char *message, size_t len);
 
 /* The same for the initial gap sum over k < terms of coefficients[k] (r - starts[k])^powers[k],
  * each term from r = starts[k] on.
@@ -147,49 +108,63 @@ int fuge_solve_round_punch(fuge_smooth_profile profile, void *user, double reach
 int fuge_solve_round_powers(int terms, const double *coefficients, const double *powers,
                             const double *starts, double reach, double e_star,
                             const double *load, const double *approach, const double *radius,
-                            fuge_round **contact, char *message, size_t len);
+                            fuge_punch **contact, char *message, size_t len);
+
+/* ---- contacts of punches ------------------------------------------------ */
 
 /* Free and set *contact to NULL; NULL and *contact == NULL are fine. */
-void fuge_round_free(fuge_round **contact);
+void fuge_punch_free(fuge_punch **contact);
 
-typedef struct fuge_round_report {
+typedef struct fuge_punch_report {
   int iterations;               /* series formed */
   int coefficients;             /* number of coefficients of the series */
   int reserved_int[6];
-  double radius;                /* of the contact; length */
-  double load;
-  double approach;              /* absolute; length */
+  double left, right;           /* ends of the contact; length.  Of a disc -radius and radius */
+  double half_width;            /* more accurate than (right - left)/2 far from x = 0; the radius of
+                                   a disc */
+  double force, moment;         /* force, per depth or on the disc; moment about x = 0, else 0 */
+  double approach, tilt;        /* a smooth punch moves by approach + tilt x; the displacement by a
+                                   line load is zero at the distance 2 (upper - lower).  The
+                                   approach of a round one is absolute, its tilt is 0; length */
   double residual;              /* certificate: largest scaled violation of the problem */
-  double radius_error;          /* estimated error of the radius, relative to it */
-  double pressure_error;        /* estimated error of the pressure, relative to its mean */
+  double end_error;             /* estimated error of the ends, relative to the half width */
+  double pressure_error;        /* estimated error of the pressure, relative to its maximum, under
+                                   a round punch to its mean */
   double reserved[8];
-} fuge_round_report;
+} fuge_punch_report;
 
-/* As for fuge_smooth: several threads may read a contact at once. */
-int fuge_round_get_report(const fuge_round *contact, fuge_round_report *report,
+/* A contact does not change once it is solved, and holds no message: several threads may
+ * read it at once.  FUGE_ERR_POINTER, FUGE_ERR_SIZE; FUGE_ERR_NOT_FINITE for a place or an
+ * initial gap. */
+int fuge_punch_get_report(const fuge_punch *contact, fuge_punch_report *report,
                           char *message, size_t len);
 
-/* Pressure at count >= 0 distances r from the axis; force per length^2, 0 outside the contact.
- * In the tip of a cone it is infinite: the result is the largest number. */
-int fuge_round_get_pressure(const fuge_round *contact, int count, const double *r,
+/* Pressure at count >= 0 places x, under a round punch distances from the axis; force per
+ * length^2, 0 outside the contact.  In the tip of a cone it is infinite: the result is the
+ * largest number. */
+int fuge_punch_get_pressure(const fuge_punch *contact, int count, const double *x,
                             double *pressure, char *message, size_t len);
 
-/* Gap under load at count >= 0 distances r from the initial gaps there; length.  gap may be
- * the same array as r or initial_gap. */
-int fuge_round_get_gap(const fuge_round *contact, int count, const double *r,
+/* Gap under load at count >= 0 places x from the initial gaps there; length.  gap may be
+ * the same array as x or initial_gap. */
+int fuge_punch_get_gap(const fuge_punch *contact, int count, const double *x,
                        const double *initial_gap, double *gap, char *message, size_t len);
+
+/* Coefficients: those of the pressure under a smooth punch, force per length^2; under a round one
+ * those of the Chebyshev series, from the axis to the radius, of the derivative of Abel's transform
+ * of the profile, no unit, and none for powers.  Only the first capacity are written;
+ * fuge_punch_get_report has their number. */
+int fuge_punch_get_coefficients(const fuge_punch *contact, int capacity, double *coefficients,
+                                char *message, size_t len);
 
 /* ---- fields -------------------------------------------------------------- */
 
-/* Under a smooth punch of fuge_solve_smooth_punch, to rounding; along z displacements have the datum
- * of the approach in fuge_smooth_get_report. */
-int fuge_field_smooth(const fuge_smooth *contact, double young, double poisson, int plane_state,
-                      fuge_field **field, char *message, size_t len);
-
-/* Under a round punch of fuge_solve_round_punch or fuge_solve_round_powers, to rounding.  In the tip
- * of a cone zz is -DBL_MAX. */
-int fuge_field_round(const fuge_round *contact, double young, double poisson, fuge_field **field,
-                     char *message, size_t len);
+/* Under a punch of fuge_solve_smooth_punch, fuge_solve_round_punch or fuge_solve_round_powers, to
+ * rounding.  plane_state as in fuge_field_halfplane; under a round punch it does not count.  Along z
+ * displacements have the datum of the approach in fuge_punch_get_report; in the tip of a cone zz is
+ * -DBL_MAX. */
+int fuge_field_punch(const fuge_punch *contact, double young, double poisson, int plane_state,
+                     fuge_field **field, char *message, size_t len);
 
 #ifdef __cplusplus
 }

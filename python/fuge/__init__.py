@@ -37,7 +37,7 @@ Solving: gaps and a load, a prescribed approach, or several rigid motions::
     hertz_ellipse                           Hertz in closed form: HertzContact
     solve_lcp(M, q), solve_qp(P, q, G, h, A, b)   problems without a contact: LcpSolution, QpSolution
     solve_smooth_punch                      one interval under a smooth profile, without a grid: SmoothContact
-    solve_round_punch, solve_round_powers   the same for punches of revolution: RoundContact
+    solve_round_punch, solve_round_powers   the same for punches of revolution: RoundContact; both are a PunchContact
 
 Bodies of finite elements::
 
@@ -127,6 +127,7 @@ from fuge.formats.matrix_market import (
     write_matrix as write_matrix,
     write_sparse as write_sparse,
 )
+from fuge.formats.mesh_input import read_mesh as read_mesh
 from fuge.formats.profiles import read_profile as read_profile
 from fuge.formats.stiffness import read_stiffness as read_stiffness
 from fuge.formats.surfaces import (
@@ -157,17 +158,19 @@ from fuge.heights import (
     level_surface as level_surface,
     sample_profile as sample_profile,
 )
+from fuge.layered_operators import (
+    LayeredHalfplaneOperator as LayeredHalfplaneOperator,
+    LayeredHalfspaceOperator as LayeredHalfspaceOperator,
+)
 from fuge.layers import (
     CoatingLimits as CoatingLimits,
     GradedLayers as GradedLayers,
-    LayeredHalfplaneOperator as LayeredHalfplaneOperator,
-    LayeredHalfspaceOperator as LayeredHalfspaceOperator,
     Layers as Layers,
     coating_limits as coating_limits,
     graded_layers as graded_layers,
 )
 from fuge.links import Links as Links, remove_member as remove_member
-from fuge.mesh import Mesh as Mesh, join_meshes as join_meshes, read_mesh as read_mesh
+from fuge.mesh import Mesh as Mesh, join_meshes as join_meshes
 from fuge.operators import (
     CallbackOperator as CallbackOperator,
     DenseOperator as DenseOperator,
@@ -187,6 +190,7 @@ from fuge.programs import (
 from fuge.proof import Proof as Proof
 from fuge.results import write_results as write_results, write_volume as write_volume
 from fuge.smooth import (
+    PunchContact as PunchContact,
     RoundContact as RoundContact,
     SmoothContact as SmoothContact,
     solve_round_powers as solve_round_powers,

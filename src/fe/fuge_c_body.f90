@@ -3,8 +3,9 @@ module fuge_c_body
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_loc, c_associated, c_f_pointer
   use fuge_body_type, only: fuge_body
   use fuge_c_arrays, only: find_array, give
+  use fuge_c_stiffness_sources, only: band_source, columns_source, dense_source, stiffness_source
   use fuge_c_types, only: reporting_handle, from_zero, give_message, report_failure, report_to_c, report_to_handle, &
-    require_count, require_pointer, set_handle, take_handle
+    require_columns, require_count, require_pointer, set_handle, take_handle
   use fuge_condensation, only: fuge_condense, fuge_condensed
   use fuge_input_checks, only: check_finite, is_finite_everywhere
   use fuge_nodal_modes, only: fuge_rigid_modes
@@ -12,42 +13,11 @@ module fuge_c_body
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_MODES, FUGE_ERR_SIZE
   use fuge_stiffness_band, only: fuge_band_stiffness
-  use fuge_stiffness_dense, only: fuge_dense_stiffness
   use fuge_stiffness_type, only: fuge_stiffness
   implicit none
   private
 
-  public :: copy_supports, find_body, find_condensed, new_body, report_data
-
-  !> A stiffness matrix in the caller's memory. fuge_body_condense reads it, when everything is known that it is
-  !> checked against.
-  type, abstract, public :: stiffness_source
-  contains
-    procedure(read_stiffness), deferred :: read
-  end type stiffness_source
-
-  abstract interface
-    subroutine read_stiffness(self, stiffness, info)
-      import :: stiffness_source, fuge_stiffness, fuge_info
-      class(stiffness_source), intent(in) :: self
-      class(fuge_stiffness), allocatable, intent(out) :: stiffness
-      type(fuge_info), intent(out) :: info
-    end subroutine read_stiffness
-  end interface
-
-  type, extends(stiffness_source) :: dense_source
-    real(c_double), pointer :: matrix(:, :) => null()
-  contains
-    procedure :: read => read_dense
-  end type dense_source
-
-  type, extends(stiffness_source) :: band_source
-    real(c_double), pointer :: band(:, :) => null()
-    integer :: width = 0
-    logical :: upper = .true.
-  contains
-    procedure :: read => read_band
-  end type band_source
+  public :: columns_body, find_body, find_condensed, report_data
 
   !> Behind struct fuge_body.
   type, extends(reporting_handle), public :: body_handle
@@ -105,28 +75,6 @@ contains
     status = report_to_c(info, message, length)
   end function c_body_band
 
-  subroutine read_dense(self, stiffness, info)
-    class(dense_source), intent(in) :: self
-    class(fuge_stiffness), allocatable, intent(out) :: stiffness
-    type(fuge_info), intent(out) :: info
-    type(fuge_dense_stiffness), allocatable :: dense
-
-    allocate (dense)
-    call dense%set(self%matrix, info)
-    call move_alloc(dense, stiffness)
-  end subroutine read_dense
-
-  subroutine read_band(self, stiffness, info)
-    class(band_source), intent(in) :: self
-    class(fuge_stiffness), allocatable, intent(out) :: stiffness
-    type(fuge_info), intent(out) :: info
-    type(fuge_band_stiffness), allocatable :: band
-
-    allocate (band)
-    call band%set(self%band, self%upper, info, self%width)
-    call move_alloc(band, stiffness)
-  end subroutine read_band
-
   !> Put a body behind a handle at `destination`, unless an error is known already; FUGE_ERR_POINTER, FUGE_ERR_MEMORY.
   subroutine new_body(degrees, source, destination, info)
     integer, intent(in) :: degrees
@@ -145,6 +93,46 @@ contains
     handle%degrees = degrees
     call set_handle(c_loc(handle), destination)
   end subroutine new_body
+
+  function c_body_columns(degrees, column, row, value, destination, message, length) &
+    bind(c, name='fuge_body_columns') result(status)
+    integer(c_int), intent(in), value :: degrees
+    type(c_ptr), intent(in), value :: column, row, value, destination, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(fuge_band_stiffness) :: band
+
+    status = columns_body(degrees, column, row, value, band, destination, message, length)
+  end function c_body_columns
+
+  !> A body by compressed columns, whose factor has the kind of storage of `storage`.
+  function columns_body(degrees, column, row, value, storage, destination, message, length) result(status)
+    integer(c_int), intent(in) :: degrees
+    type(c_ptr), intent(in) :: column, row, value, destination, message
+    class(fuge_stiffness), intent(in) :: storage
+    integer(c_size_t), intent(in) :: length
+    integer(c_int) :: status
+    type(columns_source), allocatable :: columns
+    class(stiffness_source), allocatable :: source
+    type(fuge_info) :: info
+
+    allocate (columns)
+    call require_count(degrees, 1, 'degrees', 'degrees of freedom', info)
+    call require_columns(degrees, 'degrees', info)
+    if (.not. info%failed()) call find_array(degrees + 1_c_int, column, 'column', columns%column, info)
+    call require_pointer(row, 'row', info)
+    call require_pointer(value, 'value', info)
+    if (.not. info%failed()) &
+      call require_count(columns%column(degrees + 1), 1, 'column('//text(int(degrees))//')', 'entries', info)
+    if (.not. info%failed()) then
+      call c_f_pointer(row, columns%row, [columns%column(degrees + 1)])
+      call c_f_pointer(value, columns%value, [columns%column(degrees + 1)])
+      allocate (columns%storage, mold=storage)
+    end if
+    call move_alloc(columns, source)
+    call new_body(int(degrees), source, destination, info)
+    status = report_to_c(info, message, length)
+  end function columns_body
 
   subroutine c_body_free(source) bind(c, name='fuge_body_free')
     type(c_ptr), intent(in), value :: source

@@ -1,31 +1,34 @@
-!> C bindings, section "elastic bodies": what is given.
+!> C bindings, sections "elastic bodies" and "bodies as one".
 module fuge_c_elastic_bodies
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_loc, c_ptr, c_size_t
-  use fuge_bodies_solution, only: fuge_bodies_contact
-  use fuge_body_joining, only: fuge_joined_bodies
-  use fuge_c_arrays, only: find_array, give
-  use fuge_c_body, only: copy_supports
-  use fuge_c_pairs, only: copy_surface, take_options
-  use fuge_c_types, only: reporting_handle, from_zero, report_to_c, report_to_handle, require_columns, require_count, &
-    require_pointer, set_handle, take_handle
-  use fuge_contact_pairs_type, only: fuge_pair_options, FUGE_NORMALS_GIVEN
-  use fuge_elastic_body_type, only: fuge_elastic_body, fuge_surface_pair
+  use fuge_bodies_solution, only: fuge_bodies_contact, fuge_solve_bodies
+  use fuge_body_joining, only: fuge_join_bodies, fuge_joined_bodies
+  use fuge_c_arrays, only: give
+  use fuge_c_body, only: body_handle, find_body
+  use fuge_c_pairs, only: find_pairs, pairs_handle, take_pair
+  use fuge_c_types, only: reporting_handle, from_zero, give_info, give_message, options_at, report_failure, &
+    report_to_c, report_to_handle, require_pointer, set_handle, take_handle
+  use fuge_contact_pairs_type, only: fuge_contact_pairs
+  use fuge_elastic_body_type, only: copy_data, fuge_elastic_body, fuge_surface_pair
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALL_ORDER, FUGE_ERR_SIZE
+  use fuge_stiffness_band, only: fuge_band_stiffness
+  use fuge_stiffness_type, only: fuge_stiffness
   implicit none
   private
 
-  public :: find_bodies
+  public :: solve_bodies
+
+  !> A body of the caller, which it may change between two solves.
+  type :: body_reference
+    type(body_handle), pointer :: handle => null()
+  end type body_reference
 
   !> Behind struct fuge_bodies.
-  type, extends(reporting_handle), public :: bodies_handle
-    type(fuge_elastic_body), allocatable :: body(:)
+  type, extends(reporting_handle) :: bodies_handle
+    type(body_reference), allocatable :: body(:)
     type(fuge_surface_pair), allocatable :: pair(:)
-    !> The surfaces of the next pair.
-    type(fuge_surface_pair) :: next
-    !> Options of pairs that hold until they are set again.
-    type(fuge_pair_options) :: options
-    !> All bodies as one, for the present data if allocated.
+    !> All bodies as one, after a join that succeeded.
     type(fuge_joined_bodies), allocatable :: joined
     !> The last solution, and the report of the last solve.
     type(fuge_bodies_contact), allocatable :: contact
@@ -66,209 +69,232 @@ contains
     deallocate (handle)
   end subroutine c_bodies_free
 
-  function c_bodies_add(bodies, degrees, column, row, value, body) bind(c, name='fuge_bodies_add') result(status)
-    type(c_ptr), intent(in), value :: bodies, column, row, value, body
-    integer(c_int), intent(in), value :: degrees
+  function c_bodies_add(bodies, body, number) bind(c, name='fuge_bodies_add') result(status)
+    type(c_ptr), intent(in), value :: bodies, body, number
     integer(c_int) :: status
     type(bodies_handle), pointer :: handle
-    integer(c_int), pointer :: columns(:)
-    type(fuge_info) :: info
-
-    call find_bodies(bodies, handle, info)
-    call require_count(degrees, 1, 'degrees', 'degrees of freedom', info)
-    call require_columns(degrees, 'degrees', info)
-    if (.not. info%failed()) call find_array(degrees + 1_c_int, column, 'column', columns, info)
-    call require_pointer(row, 'row', info)
-    call require_pointer(value, 'value', info)
-    if (.not. info%failed()) &
-      call require_count(columns(degrees + 1), 1, 'column('//text(int(degrees))//')', 'entries', info)
-    if (.not. info%failed()) call append_body(handle, columns, row, value, info)
-    if (.not. info%failed()) call give(size(handle%body) - 1, body)
-    status = report_change(info, handle)
-  end function c_bodies_add
-
-  !> Append a body with this stiffness; those before are moved, not copied.
-  subroutine append_body(handle, columns, row, value, info)
-    type(bodies_handle), intent(inout) :: handle
-    integer(c_int), intent(in) :: columns(:)
-    type(c_ptr), intent(in) :: row, value
-    type(fuge_info), intent(inout) :: info
-    type(fuge_elastic_body), allocatable :: more(:)
-    integer(c_int), pointer :: rows(:)
-    real(c_double), pointer :: values(:)
-    integer :: entries, k, n, stat
-
-    n = size(handle%body)
-    entries = columns(size(columns))
-    call c_f_pointer(row, rows, [entries])
-    call c_f_pointer(value, values, [entries])
-    allocate (more(n + 1), stat=stat)
-    if (stat == 0) allocate (more(n + 1)%column(size(columns)), more(n + 1)%row(entries), more(n + 1)%value(entries), &
-                             stat=stat)
-    call require_memory(stat, 'a copy of', entries, 'entries', info)
-    if (stat /= 0) return
-    do k = 1, entries
-      more(n + 1)%row(k) = from_zero(rows(k))
-      more(n + 1)%value(k) = values(k)
-    end do
-    more(n + 1)%column = from_zero(columns)
-    do k = 1, n
-      call move_body(handle%body(k), more(k))
-    end do
-    call move_alloc(more, handle%body)
-  end subroutine append_body
-
-  pure subroutine move_body(source, destination)
-    type(fuge_elastic_body), intent(inout) :: source, destination
-
-    call move_alloc(source%column, destination%column)
-    call move_alloc(source%row, destination%row)
-    call move_alloc(source%value, destination%value)
-    call move_alloc(source%fixed, destination%fixed)
-    call move_alloc(source%displacement, destination%displacement)
-    call move_alloc(source%load, destination%load)
-    call move_alloc(source%rigid_modes, destination%rigid_modes)
-  end subroutine move_body
-
-  function c_bodies_fix(bodies, body, number, dof, displacement) bind(c, name='fuge_bodies_fix') result(status)
-    type(c_ptr), intent(in), value :: bodies, dof, displacement
-    integer(c_int), intent(in), value :: body, number
-    integer(c_int) :: status
-    type(bodies_handle), pointer :: handle
-    type(fuge_info) :: info
-
-    call find_body(bodies, body, handle, info)
-    if (.not. info%failed()) call copy_supports(number, dof, displacement, handle%body(body + 1)%fixed, &
-                                                handle%body(body + 1)%displacement, info)
-    status = report_change(info, handle)
-  end function c_bodies_fix
-
-  function c_bodies_set_load(bodies, body, load) bind(c, name='fuge_bodies_set_load') result(status)
-    type(c_ptr), intent(in), value :: bodies, load
-    integer(c_int), intent(in), value :: body
-    integer(c_int) :: status
-    type(bodies_handle), pointer :: handle
-    real(c_double), pointer :: forces(:)
-    type(fuge_info) :: info
-
-    call find_body(bodies, body, handle, info)
-    call require_pointer(load, 'load', info)
-    if (.not. info%failed()) then
-      call c_f_pointer(load, forces, [size(handle%body(body + 1)%column) - 1])
-      handle%body(body + 1)%load = forces
-    end if
-    status = report_change(info, handle)
-  end function c_bodies_set_load
-
-  function c_bodies_set_rigid_modes(bodies, body, m, rigid_modes) bind(c, name='fuge_bodies_set_rigid_modes') &
-    result(status)
-    type(c_ptr), intent(in), value :: bodies, rigid_modes
-    integer(c_int), intent(in), value :: body, m
-    integer(c_int) :: status
-    type(bodies_handle), pointer :: handle
-    real(c_double), pointer :: values(:, :)
-    type(fuge_info) :: info
-
-    call find_body(bodies, body, handle, info)
-    call require_count(m, 0, 'm', 'rigid modes', info)
-    if (m > 0) call require_pointer(rigid_modes, 'rigid_modes', info)
-    if (.not. info%failed()) then
-      associate (own => handle%body(body + 1))
-        if (allocated(own%rigid_modes)) deallocate (own%rigid_modes)
-        if (m > 0) then
-          call c_f_pointer(rigid_modes, values, [size(own%column) - 1, int(m)])
-          own%rigid_modes = values
-        end if
-      end associate
-    end if
-    status = report_change(info, handle)
-  end function c_bodies_set_rigid_modes
-
-  !> The arguments are nine, as in the header: the handle, the body, its surface.
-  function c_bodies_set_contact(bodies, body, dimensions, nodes, node, most, faces, face, dof) &
-    bind(c, name='fuge_bodies_set_contact') result(status)
-    type(c_ptr), intent(in), value :: bodies, node, face, dof
-    integer(c_int), intent(in), value :: body, dimensions, nodes, most, faces
-    integer(c_int) :: status
-    type(bodies_handle), pointer :: handle
-    type(fuge_info) :: info
-
-    call find_bodies(bodies, handle, info)
-    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, &
-                                               handle%next%contact, info)
-    if (.not. info%failed()) handle%next%contact_body = from_zero(body)
-    status = report_to_handle(info, handle)
-  end function c_bodies_set_contact
-
-  !> The arguments are nine, as in the header: the handle, the body, its surface.
-  function c_bodies_set_opposite(bodies, body, dimensions, nodes, node, most, faces, face, dof) &
-    bind(c, name='fuge_bodies_set_opposite') result(status)
-    type(c_ptr), intent(in), value :: bodies, node, face, dof
-    integer(c_int), intent(in), value :: body, dimensions, nodes, most, faces
-    integer(c_int) :: status
-    type(bodies_handle), pointer :: handle
-    type(fuge_info) :: info
-
-    call find_bodies(bodies, handle, info)
-    if (.not. info%failed()) call copy_surface([dimensions, nodes, most, faces], node, face, dof, &
-                                               handle%next%opposite, info)
-    if (.not. info%failed()) handle%next%opposite_body = from_zero(body)
-    status = report_to_handle(info, handle)
-  end function c_bodies_set_opposite
-
-  function c_bodies_set_geometry(bodies, crease, revolution) bind(c, name='fuge_bodies_set_geometry') result(status)
-    type(c_ptr), intent(in), value :: bodies
-    real(c_double), intent(in), value :: crease
-    integer(c_int), intent(in), value :: revolution
-    integer(c_int) :: status
-    type(bodies_handle), pointer :: handle
-    type(fuge_info) :: info
-
-    call find_bodies(bodies, handle, info)
-    if (.not. info%failed()) then
-      handle%options%crease = crease
-      handle%options%revolution = revolution /= 0
-    end if
-    status = report_to_handle(info, handle)
-  end function c_bodies_set_geometry
-
-  function c_bodies_add_pair(bodies, method, normals, normal, reach, play, tied, smooth) &
-    bind(c, name='fuge_bodies_add_pair') result(status)
-    type(c_ptr), intent(in), value :: bodies, normal
-    integer(c_int), intent(in), value :: method, normals, tied, smooth
-    real(c_double), intent(in), value :: reach, play
-    integer(c_int) :: status
-    type(bodies_handle), pointer :: handle
-    type(fuge_pair_options) :: options
-    type(fuge_surface_pair), allocatable :: more(:)
-    type(fuge_surface_pair) :: blank
+    type(body_handle), pointer :: added
+    type(body_reference), allocatable :: more(:)
     type(fuge_info) :: info
     integer :: n, stat
 
     call find_bodies(bodies, handle, info)
+    call find_body(body, added, info)
     if (.not. info%failed()) then
-      if (.not. (allocated(handle%next%contact%node) .and. allocated(handle%next%opposite%node))) call report(info, &
-        FUGE_ERR_CALL_ORDER, 'a surface is missing: set the contact surface and the opposite one of this pair first')
+      n = size(handle%body)
+      allocate (more(n + 1), stat=stat)
+      call require_memory(stat, 'a body', info)
+      if (stat == 0) then
+        more(:n) = handle%body
+        more(n + 1)%handle => added
+        call move_alloc(more, handle%body)
+        call give(n, number)
+      end if
     end if
-    if (normals == FUGE_NORMALS_GIVEN) call require_pointer(normal, 'normal', info)
-    if (.not. info%failed()) then
-      options = handle%options
-      call take_options(handle%next%contact, [method, normals, tied, smooth], normal, [reach, play], options, info)
-    end if
+    status = report_to_handle(info, handle)
+  end function c_bodies_add
+
+  !> The arguments are eleven, as in the header: the bodies, the surfaces and whose they are, how they are paired.
+  function c_bodies_add_pair(bodies, contact_body, opposite_body, pairs, method, normals, normal, reach, play, tied, &
+                             smooth) bind(c, name='fuge_bodies_add_pair') result(status)
+    type(c_ptr), intent(in), value :: bodies, pairs, normal
+    integer(c_int), intent(in), value :: contact_body, opposite_body, method, normals, tied, smooth
+    real(c_double), intent(in), value :: reach, play
+    integer(c_int) :: status
+    type(bodies_handle), pointer :: handle
+    type(pairs_handle), pointer :: surfaces
+    type(fuge_surface_pair), allocatable :: more(:)
+    type(fuge_surface_pair) :: added
+    type(fuge_info) :: info
+    integer :: n, stat
+
+    call find_bodies(bodies, handle, info)
+    call find_pairs(pairs, surfaces, info)
+    if (.not. info%failed()) call take_pair(surfaces, [method, normals, tied, smooth], normal, [reach, play], &
+                                            added%options, info)
     if (.not. info%failed()) then
       n = size(handle%pair)
       allocate (more(n + 1), stat=stat)
       call require_memory(stat, 'a pair of surfaces', info)
       if (stat == 0) then
+        added%contact = surfaces%contact
+        added%opposite = surfaces%opposite
+        added%contact_body = from_zero(contact_body)
+        added%opposite_body = from_zero(opposite_body)
         more(:n) = handle%pair
-        more(n + 1) = handle%next
-        more(n + 1)%options = options
+        more(n + 1) = added
         call move_alloc(more, handle%pair)
-        handle%next = blank
       end if
     end if
-    status = report_change(info, handle)
+    status = report_to_handle(info, handle)
   end function c_bodies_add_pair
+
+  function c_bodies_solve(bodies, options, pairs) bind(c, name='fuge_bodies_solve') result(status)
+    type(c_ptr), intent(in), value :: bodies, options, pairs
+    integer(c_int) :: status
+    type(fuge_band_stiffness) :: band
+
+    status = solve_bodies(bodies, options, pairs, band)
+  end function c_bodies_solve
+
+  !> Solve with a storage of the stiffness matrix of all bodies.
+  function solve_bodies(bodies, options, pairs, stiffness) result(status)
+    type(c_ptr), intent(in) :: bodies, options, pairs
+    class(fuge_stiffness), intent(inout) :: stiffness
+    integer(c_int) :: status
+    type(bodies_handle), pointer :: handle
+    type(fuge_elastic_body), allocatable :: body(:)
+    type(fuge_info) :: info
+    integer :: stat
+
+    call find_bodies(bodies, handle, info)
+    if (.not. info%failed()) then
+      call read_bodies(handle, body, info)
+      if (.not. (info%failed() .or. allocated(handle%contact))) then
+        allocate (handle%contact, stat=stat)
+        call require_memory(stat, 'the solution', info)
+      end if
+      if (.not. info%failed()) call fuge_solve_bodies(stiffness, body, handle%pair, handle%contact, info, &
+                                                      options_at(options))
+      if (.not. info%failed()) call give_pairs(handle%contact%pairs, pairs)
+      handle%info = info
+      handle%tried = .true.
+    end if
+    status = report_to_handle(info, handle)
+  end function solve_bodies
+
+  !> The bodies as the caller has set them by now. Error: FUGE_ERR_MEMORY.
+  subroutine read_bodies(handle, body, info)
+    type(bodies_handle), intent(in) :: handle
+    type(fuge_elastic_body), allocatable, intent(out) :: body(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: k, stat
+
+    allocate (body(size(handle%body)), stat=stat)
+    call require_memory(stat, '', size(handle%body), 'bodies', info)
+    do k = 1, size(handle%body)
+      if (info%failed()) return
+      associate (source => handle%body(k)%handle)
+        call source%source%columns(body(k)%column, body(k)%row, body(k)%value, info)
+        if (.not. info%failed()) call copy_data(source%body, body(k)%fuge_body, info)
+      end associate
+    end do
+  end subroutine read_bodies
+
+  !> Copy contact points to the pairs behind an address; NULL is left alone.
+  subroutine give_pairs(found, pairs)
+    type(fuge_contact_pairs), intent(in) :: found
+    type(c_ptr), intent(in) :: pairs
+    type(pairs_handle), pointer :: handle
+
+    if (.not. c_associated(pairs)) return
+    call c_f_pointer(pairs, handle)
+    handle%pairs = found
+  end subroutine give_pairs
+
+  function c_bodies_get_forces(bodies, force, pressure, gap) bind(c, name='fuge_bodies_get_forces') result(status)
+    type(c_ptr), intent(in), value :: bodies, force, pressure, gap
+    integer(c_int) :: status
+    type(bodies_handle), pointer :: handle
+
+    status = find_solved(bodies, handle)
+    if (status /= FUGE_DONE) return
+    call give(handle%contact%force, force)
+    call give(handle%contact%pressure, pressure)
+    call give(handle%contact%gap, gap)
+  end function c_bodies_get_forces
+
+  function c_bodies_get_displacement(bodies, body, displacement) bind(c, name='fuge_bodies_get_displacement') &
+    result(status)
+    type(c_ptr), intent(in), value :: bodies, displacement
+    integer(c_int), intent(in), value :: body
+    integer(c_int) :: status
+    type(bodies_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    status = find_solved(bodies, handle)
+    if (status /= FUGE_DONE) return
+    associate (first => handle%contact%first)
+      if (body < 0 .or. body >= size(first) - 1) then
+        call report(info, FUGE_ERR_SIZE, 'body = '//text(int(body))//' is not one of the '//text(size(first) - 1) &
+                    //' bodies of the last solve')
+        status = report_failure(info, handle)
+      else
+        call give(handle%contact%displacement(first(body + 1) + 1:first(body + 2)), displacement)
+      end if
+    end associate
+  end function c_bodies_get_displacement
+
+  function c_bodies_get_info(bodies, destination) bind(c, name='fuge_bodies_get_info') result(status)
+    type(c_ptr), intent(in), value :: bodies, destination
+    integer(c_int) :: status
+    type(bodies_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call find_bodies(bodies, handle, info)
+    call require_pointer(destination, 'info', info)
+    if (.not. info%failed()) then
+      if (.not. handle%tried) call report(info, FUGE_ERR_CALL_ORDER, 'there is no solve: call fuge_bodies_solve first')
+    end if
+    if (.not. info%failed()) call give_info(handle%info, destination)
+    status = report_failure(info, handle)
+  end function c_bodies_get_info
+
+  function c_bodies_message(bodies, message, length) bind(c, name='fuge_bodies_message') result(status)
+    type(c_ptr), intent(in), value :: bodies, message
+    integer(c_size_t), intent(in), value :: length
+    integer(c_int) :: status
+    type(bodies_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call find_bodies(bodies, handle, info)
+    status = give_message(info, handle, message, length)
+  end function c_bodies_message
+
+  function c_bodies_join(bodies, pairs, degrees, entries) bind(c, name='fuge_bodies_join') result(status)
+    type(c_ptr), intent(in), value :: bodies, pairs, degrees, entries
+    integer(c_int) :: status
+    type(bodies_handle), pointer :: handle
+    type(fuge_elastic_body), allocatable :: body(:)
+    type(fuge_info) :: info
+    integer :: stat
+
+    call find_bodies(bodies, handle, info)
+    if (.not. info%failed()) then
+      if (allocated(handle%joined)) deallocate (handle%joined)
+      allocate (handle%joined, stat=stat)
+      call require_memory(stat, 'all bodies together', info)
+      if (stat == 0) call read_bodies(handle, body, info)
+      if (.not. info%failed()) call fuge_join_bodies(body, handle%pair, handle%joined, info)
+      if (.not. info%failed()) then
+        call give_pairs(handle%joined%pairs, pairs)
+        call give(size(handle%joined%column) - 1, degrees)
+        call give(size(handle%joined%row), entries)
+      else if (stat == 0) then
+        deallocate (handle%joined)
+      end if
+    end if
+    status = report_to_handle(info, handle)
+  end function c_bodies_join
+
+  function c_bodies_get_matrix(bodies, column, row, value, first) bind(c, name='fuge_bodies_get_matrix') result(status)
+    type(c_ptr), intent(in), value :: bodies, column, row, value, first
+    integer(c_int) :: status
+    type(bodies_handle), pointer :: handle
+    type(fuge_info) :: info
+
+    call find_bodies(bodies, handle, info)
+    if (.not. info%failed()) then
+      if (.not. allocated(handle%joined)) call report(info, FUGE_ERR_CALL_ORDER, 'the bodies have not been joined: ' &
+                                                      //'call fuge_bodies_join first')
+    end if
+    status = report_failure(info, handle)
+    if (info%failed()) return
+    call give(handle%joined%column - 1, column)
+    call give(handle%joined%row - 1, row)
+    call give(handle%joined%value, value)
+    call give(handle%joined%first, first)
+  end function c_bodies_get_matrix
 
   !> The bodies behind a handle; NULL is FUGE_ERR_POINTER.
   subroutine find_bodies(address, handle, info)
@@ -281,28 +307,22 @@ contains
     if (.not. info%failed()) call c_f_pointer(address, handle)
   end subroutine find_bodies
 
-  !> The same, and FUGE_ERR_SIZE unless they have a body of this number, from 0.
-  subroutine find_body(address, body, handle, info)
+  !> The bodies behind a handle, for a getter, refused before a solve (FUGE_ERR_CALL_ORDER). The result is the status to
+  !> return.
+  function find_solved(address, handle) result(status)
     type(c_ptr), intent(in) :: address
-    integer(c_int), intent(in) :: body
     type(bodies_handle), pointer, intent(out) :: handle
-    type(fuge_info), intent(inout) :: info
+    integer(c_int) :: status
+    type(fuge_info) :: info
+    logical :: solved
 
     call find_bodies(address, handle, info)
-    if (info%failed()) return
-    if (body < 0 .or. body >= size(handle%body)) call report(info, FUGE_ERR_SIZE, 'body = '//text(int(body)) &
-      //' is not one of the '//text(size(handle%body))//' bodies: call fuge_bodies_add first')
-  end subroutine find_body
-
-  !> As `report_to_handle` for a call that changes data: what was joined is out of date.
-  function report_change(info, handle) result(status)
-    type(fuge_info), intent(in) :: info
-    type(bodies_handle), pointer, intent(in) :: handle
-    integer(c_int) :: status
-
-    status = report_to_handle(info, handle)
-    if (info%failed()) return
-    if (allocated(handle%joined)) deallocate (handle%joined)
-  end function report_change
+    if (.not. info%failed()) then
+      solved = allocated(handle%contact)
+      if (solved) solved = allocated(handle%contact%force)
+      if (.not. solved) call report(info, FUGE_ERR_CALL_ORDER, 'there is no solution: call fuge_bodies_solve first')
+    end if
+    status = report_failure(info, handle)
+  end function find_solved
 
 end module fuge_c_elastic_bodies

@@ -12,10 +12,10 @@ module fuge_c_pairs
   implicit none
   private
 
-  public :: copy_surface, take_options
+  public :: find_pairs, take_pair
 
   !> Behind struct fuge_pairs.
-  type, extends(reporting_handle) :: pairs_handle
+  type, extends(reporting_handle), public :: pairs_handle
     type(fuge_surface_mesh) :: contact, opposite
     type(fuge_contact_pairs) :: pairs
     !> Options that hold until they are set again.
@@ -150,33 +150,30 @@ contains
     type(fuge_info) :: info
 
     call find_pairs(pairs, handle, info)
-    if (.not. info%failed()) then
-      if (.not. (allocated(handle%contact%node) .and. allocated(handle%opposite%node))) call report(info, &
-        FUGE_ERR_CALL_ORDER, 'a surface is missing: set the contact surface and the opposite one first')
-    end if
-    if (normals == FUGE_NORMALS_GIVEN) call require_pointer(normal, 'normal', info)
-    if (.not. info%failed()) then
-      options = handle%options
-      call take_options(handle%contact, [method, normals, tied, smooth], normal, [reach, play], options, info)
-    end if
+    if (.not. info%failed()) call take_pair(handle, [method, normals, tied, smooth], normal, [reach, play], options, &
+                                            info)
     if (.not. info%failed()) then
       call fuge_find_pairs(handle%contact, handle%opposite, options, handle%pairs, info)
     end if
     status = report_to_handle(info, handle)
   end function c_pairs_find
 
-  !> What the arguments say of a pair: method, normals, tied and smooth; `normal` at the nodes of the contact surface if
-  !> it is given; reach and play. Error: FUGE_ERR_MEMORY.
-  subroutine take_options(contact, choices, normal, lengths, options, info)
-    type(fuge_surface_mesh), intent(in) :: contact
+  !> The options of the pair whose surfaces are set: method, normals, tied and smooth; `normal` at the nodes of the
+  !> contact surface if it is given; reach and play. Errors: FUGE_ERR_CALL_ORDER without both surfaces,
+  !> FUGE_ERR_POINTER, FUGE_ERR_MEMORY.
+  subroutine take_pair(handle, choices, normal, lengths, options, info)
+    type(pairs_handle), intent(in) :: handle
     integer(c_int), intent(in) :: choices(4)
     type(c_ptr), intent(in) :: normal
     real(c_double), intent(in) :: lengths(2)
-    type(fuge_pair_options), intent(inout) :: options
+    type(fuge_pair_options), intent(out) :: options
     type(fuge_info), intent(inout) :: info
     real(c_double), pointer :: values(:, :)
     integer :: stat
 
+    if (.not. (allocated(handle%contact%node) .and. allocated(handle%opposite%node))) call report(info, &
+      FUGE_ERR_CALL_ORDER, 'a surface is missing: set the contact surface and the opposite one first')
+    options = handle%options
     options%method = int(choices(1))
     options%normals = int(choices(2))
     options%tied = choices(3) /= 0
@@ -184,10 +181,12 @@ contains
     options%reach = lengths(1)
     options%play = lengths(2)
     if (options%normals /= FUGE_NORMALS_GIVEN) return
-    call c_f_pointer(normal, values, shape(contact%node))
+    call require_pointer(normal, 'normal', info)
+    if (info%failed()) return
+    call c_f_pointer(normal, values, shape(handle%contact%node))
     allocate (options%normal, source=values, stat=stat)
     call require_memory(stat, 'the normals', info)
-  end subroutine take_options
+  end subroutine take_pair
 
   function c_pairs_get_sizes(pairs, n, width, unpaired) bind(c, name='fuge_pairs_get_sizes') result(status)
     type(c_ptr), intent(in), value :: pairs, n, width, unpaired

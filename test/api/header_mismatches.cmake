@@ -40,7 +40,7 @@ expect_mismatch(fuge_mpi.h "int fuge_operator_rows(" "int fuge_operator_lines(" 
 # In the header of another component: a function and a constant that there are.
 expect_mismatch(fuge_files.h "int fuge_write_mesh(" "int fuge_field_largest(void);\nint fuge_write_mesh("
   "functions only in fuge_files.h: fuge_field_largest functions only")
-expect_mismatch(fuge_punches.h "typedef struct fuge_smooth fuge_smooth;" "enum { FUGE_CENTRE = 0 };"
+expect_mismatch(fuge_punches.h "typedef struct fuge_punch fuge_punch;" "enum { FUGE_CENTRE = 0 };"
   "constants only in fuge_punches.h: FUGE_CENTRE = 0")
 expect_mismatch(fuge.h "#endif" "int fuge_reset(fuge_solver *s);\n#endif" "fuge.h declares fuge_reset")
 

@@ -12,25 +12,18 @@ module fuge_elastic_body_type
   implicit none
   private
 
-  public :: check_pair_numbers, put_before, take_body
+  public :: check_pair_numbers, copy_data, put_before, take_body
 
-  !> An elastic body: its stiffness matrix, supports and load. Degrees of freedom count from 1 in each body. Set
+  !> An elastic body: its stiffness matrix, and of `fuge_body` the supports, the load and the rigid modes that the
+  !> supports leave; set those for all bodies that float, or for none: then they are found. What else a `fuge_body` has
+  !> does not count here: contact points are those of the surfaces. Degrees of freedom count from 1 in each body. Set
   !> components by name, since later versions may add some.
-  type, public :: fuge_elastic_body
+  type, extends(fuge_body), public :: fuge_elastic_body
     !> Stiffness matrix in compressed columns: column j holds the entries
     !> column(j) .. column(j + 1) - 1 of `row` and `value`. Repeated entries are added; both triangles, or one of them.
     integer, allocatable :: column(:), row(:)
     !> The entries, force per displacement.
     real(dp), allocatable :: value(:)
-    !> Fixed degrees of freedom. Not allocated: none.
-    integer, allocatable :: fixed(:)
-    !> Prescribed displacements of `fixed`, (size(fixed)), length. Not allocated: zero.
-    real(dp), allocatable :: displacement(:)
-    !> External load, one force for each degree of freedom. Not allocated: none.
-    real(dp), allocatable :: load(:)
-    !> Rigid modes that the supports leave, (degrees of freedom, m), for example by `fuge_rigid_modes`. Not allocated:
-    !> they are found. Set them for all bodies that float, or for none.
-    real(dp), allocatable :: rigid_modes(:, :)
   end type fuge_elastic_body
 
   !> Two surfaces that may touch. Set components by name, since later versions may add some.
@@ -66,7 +59,7 @@ contains
     else
       call matrix%set(body%column, body%row, body%value, info)
     end if
-    if (.not. info%failed()) call copy_data(body, own, info)
+    if (.not. info%failed()) call copy_data(body%fuge_body, own, info)
     if (.not. info%failed()) call check_supports(own, matrix%degrees(), info)
     if (allocated(own%load) .and. .not. info%failed()) call check_load_field(own%load, matrix%degrees(), info)
     if (.not. info%failed()) call check_diagonal(matrix, own, info)
@@ -80,7 +73,7 @@ contains
 
   !> Copy supports, load and rigid modes of a body.
   pure subroutine copy_data(body, own, info)
-    type(fuge_elastic_body), intent(in) :: body
+    type(fuge_body), intent(in) :: body
     type(fuge_body), intent(inout) :: own
     type(fuge_info), intent(inout) :: info
     integer :: stat

@@ -68,24 +68,24 @@ static int parabola(int n, const double *x, double *gap, double *slope, void *us
 
 static void test_punches(void) {
   double middle = 2.0, radius = 1.0;
-  fuge_smooth *smooth = NULL;
-  fuge_round *round = NULL;
+  fuge_punch *smooth = NULL;
+  fuge_punch *round = NULL;
   fuge_field *field = NULL;
   CHECK_DONE(fuge_solve_smooth_punch(parabola, &middle, -1.0, 5.0, 1.0, PI / 4.0, NULL, &smooth, NULL, 0));
-  CHECK_DONE(fuge_field_smooth(smooth, 1.0, 0.3, FUGE_PLANE_STRAIN, &field, NULL, 0));
+  CHECK_DONE(fuge_field_punch(smooth, 1.0, 0.3, FUGE_PLANE_STRAIN, &field, NULL, 0));
   fuge_stress_peak peak = largest(field, FUGE_MEASURE_TRESCA);
   CHECK_NEAR(peak.value, 0.300283, 1e-6);
   CHECK_NEAR(peak.place[0], 2.0, 1e-6);
   CHECK_NEAR(peak.place[2], 0.786151, 1e-6);
   middle = 0.0;
   CHECK_DONE(fuge_solve_round_punch(parabola, &middle, 5.0, 1.0, NULL, NULL, &radius, &round, NULL, 0));
-  CHECK_DONE(fuge_field_round(round, 1.0, 0.3, &field, NULL, 0));
+  CHECK_DONE(fuge_field_punch(round, 1.0, 0.3, 0, &field, NULL, 0));
   peak = largest(field, FUGE_MEASURE_VON_MISES);
   CHECK_NEAR(peak.value * PI / 2.0, 0.620, 5e-4);
   CHECK_NEAR(peak.place[2], 0.481, 5e-4);
   CHECK_INT(peak.location, FUGE_PEAK_INSIDE);
-  fuge_smooth_free(&smooth);
-  fuge_round_free(&round);
+  fuge_punch_free(&smooth);
+  fuge_punch_free(&round);
 }
 
 /* A square under uniform pressure, the same as a quarter. */

@@ -164,20 +164,20 @@ static int parabola(int n, const double *x, double *gap, double *slope, void *us
 }
 
 /* The field outlives the contact. */
-static fuge_field *smooth(double force, int plane_state, fuge_smooth_report *report) {
-  fuge_smooth *contact = NULL;
+static fuge_field *smooth(double force, int plane_state, fuge_punch_report *report) {
+  fuge_punch *contact = NULL;
   fuge_field *field = NULL;
   CHECK_DONE(fuge_solve_smooth_punch(parabola, NULL, -5.0, 5.0, YOUNG, force, NULL, &contact, NULL, 0));
-  CHECK_DONE(fuge_smooth_get_report(contact, report, NULL, 0));
-  CHECK_DONE(fuge_field_smooth(contact, YOUNG, POISSON, plane_state, &field, NULL, 0));
-  fuge_smooth_free(&contact);
+  CHECK_DONE(fuge_punch_get_report(contact, report, NULL, 0));
+  CHECK_DONE(fuge_field_punch(contact, YOUNG, POISSON, plane_state, &field, NULL, 0));
+  fuge_punch_free(&contact);
   return field;
 }
 
 /* On the axis zz = -p0 a/sqrt(a^2 + z^2); at the surface -p. */
 static void test_cylinder(void) {
   const double force = 0.7, root = sqrt(1.64);
-  fuge_smooth_report report;
+  fuge_punch_report report;
   fuge_field *field = smooth(force, FUGE_PLANE_STRESS, &report);
   const double a = report.half_width, p0 = 2.0 * force / (PI * a), p = p0 * sqrt(0.75);
   const double place[9] = {0, 0, 0.8 * a, 0.5 * a, 0, 0, 2.0 * a, 0, 0};
@@ -193,18 +193,18 @@ static void test_cylinder(void) {
 }
 
 /* r^2/2, pressed to a contact of this radius, or r, a cone. */
-static fuge_round *pressed(double power, double radius) {
+static fuge_punch *pressed(double power, double radius) {
   const double coefficient = 1.0 / power;
-  fuge_round *contact = NULL;
+  fuge_punch *contact = NULL;
   CHECK_DONE(fuge_solve_round_powers(1, &coefficient, &power, NULL, 5.0, 1.0, NULL, NULL, &radius, &contact, NULL, 0));
   return contact;
 }
 
 static fuge_field *round_field(double power, double radius, double poisson) {
-  fuge_round *contact = pressed(power, radius);
+  fuge_punch *contact = pressed(power, radius);
   fuge_field *field = NULL;
-  CHECK_DONE(fuge_field_round(contact, 1.0 - poisson * poisson, poisson, &field, NULL, 0));
-  fuge_round_free(&contact);
+  CHECK_DONE(fuge_field_punch(contact, 1.0 - poisson * poisson, poisson, 0, &field, NULL, 0));
+  fuge_punch_free(&contact);
   return field;
 }
 
@@ -284,22 +284,21 @@ static void test_refused_rectangles_and_rings(void) {
 }
 
 static void test_refused_punches(void) {
-  fuge_smooth *cylinder = NULL;
-  fuge_round *sphere = pressed(2.0, 1.0);
+  fuge_punch *cylinder = NULL;
+  fuge_punch *sphere = pressed(2.0, 1.0);
   CHECK_DONE(fuge_solve_smooth_punch(parabola, NULL, -5.0, 5.0, YOUNG, 1.0, NULL, &cylinder, NULL, 0));
   field = kept = rings();
-  CHECK_REFUSED(fuge_field_smooth(NULL, 1.0, 0.3, FUGE_PLANE_STRAIN, &field, message, sizeof message), FUGE_ERR_POINTER,
+  CHECK_REFUSED(fuge_field_punch(NULL, 1.0, 0.3, FUGE_PLANE_STRAIN, &field, message, sizeof message), FUGE_ERR_POINTER,
                 "contact is NULL");
-  CHECK_REFUSED(fuge_field_smooth(cylinder, 1.0, 0.6, FUGE_PLANE_STRAIN, &field, message, sizeof message),
-                FUGE_ERR_MODULUS, "poisson = 0.6");
-  CHECK_REFUSED(fuge_field_smooth(cylinder, 1.0, 0.3, 7, &field, message, sizeof message), FUGE_ERR_OPTION,
+  CHECK_REFUSED(fuge_field_punch(cylinder, 1.0, 0.6, FUGE_PLANE_STRAIN, &field, message, sizeof message), FUGE_ERR_MODULUS,
+                "poisson = 0.6");
+  CHECK_REFUSED(fuge_field_punch(cylinder, 1.0, 0.3, 7, &field, message, sizeof message), FUGE_ERR_OPTION,
                 "plane_state = 7");
-  CHECK_REFUSED(fuge_field_round(NULL, 1.0, 0.3, &field, message, sizeof message), FUGE_ERR_POINTER, "contact is NULL");
-  CHECK_REFUSED(fuge_field_round(sphere, 1.0, 0.6, &field, message, sizeof message), FUGE_ERR_MODULUS, "poisson = 0.6");
-  CHECK_REFUSED(fuge_field_round(sphere, -1.0, 0.3, &field, message, sizeof message), FUGE_ERR_MODULUS, "young = -1.");
+  CHECK_REFUSED(fuge_field_punch(sphere, 1.0, 0.6, 0, &field, message, sizeof message), FUGE_ERR_MODULUS, "poisson = 0.6");
+  CHECK_REFUSED(fuge_field_punch(sphere, -1.0, 0.3, 0, &field, message, sizeof message), FUGE_ERR_MODULUS, "young = -1.");
   fuge_field_free(&field);
-  fuge_smooth_free(&cylinder);
-  fuge_round_free(&sphere);
+  fuge_punch_free(&cylinder);
+  fuge_punch_free(&sphere);
 }
 
 static void check_place(const fuge_field *asked, int points, const double *place, int status, const char *part) {
@@ -313,7 +312,7 @@ static void check_place(const fuge_field *asked, int points, const double *place
 /* Indices in messages count from 0; all fields refuse the same. */
 static void test_refused_places(void) {
   const double above[6] = {0, 0, 1, 1, 0, -0.5}, nowhere[6] = {0, 0, 1, 1, 0, NAN}, left[6] = {0, 0, 1, -1, 0, 1};
-  fuge_smooth_report report;
+  fuge_punch_report report;
   fuge_field *all[] = {line(N, X, FORCE, FUGE_MEAN, 0, FUGE_PLANE_STRAIN), line(N, X, FORCE, FUGE_HAT, 1, FUGE_PLANE_STRESS),
                        squares(4, SQUARE_X, SQUARE_Y, ONES, 0, 0), smooth(0.7, FUGE_PLANE_STRAIN, &report), rings(),
                        round_field(2.0, 1.0, POISSON)};

@@ -2,12 +2,15 @@
 module fuge_field_of_punches
   use fuge_field_type, only: fuge_field
   use fuge_kinds, only: dp
+  use fuge_punch_contact_type, only: punch_contact
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_status, only: fuge_info, require_memory
   use fuge_stress_peak_type, only: fuge_stress_peak
   implicit none
   private
+
+  public :: make_punch_field
 
   !> In a half-plane under a smooth punch; made by `set`.
   type, extends(fuge_field), public :: fuge_smooth_punch_field
@@ -35,6 +38,28 @@ module fuge_field_of_punches
   end type fuge_round_punch_field
 
 contains
+
+  !> The field under a punch of either kind; `plane_state` counts under a smooth one only. Errors: those of its `set`.
+  subroutine make_punch_field(contact, young, poisson, plane_state, field, info)
+    class(punch_contact), intent(in) :: contact
+    real(dp), intent(in) :: young, poisson
+    integer, intent(in) :: plane_state
+    class(fuge_field), allocatable, intent(out) :: field
+    type(fuge_info), intent(out) :: info
+    type(fuge_smooth_punch_field), allocatable :: smooth
+    type(fuge_round_punch_field), allocatable :: round
+
+    select type (contact)
+    class is (fuge_smooth_contact)
+      allocate (smooth)
+      call smooth%set(contact, young, poisson, plane_state, info)
+      call move_alloc(smooth, field)
+    class is (fuge_round_contact)
+      allocate (round)
+      call round%set(contact, young, poisson, info)
+      call move_alloc(round, field)
+    end select
+  end subroutine make_punch_field
 
   !> `contact` of `fuge_solve_smooth_punch`; `young`, `poisson`, `plane_state` of the body as for `fuge_plane_modulus`.
   !>

@@ -12,19 +12,19 @@ module fuge_round_contact_type
   use fuge_gauss_legendre, only: gauss_rule
   use fuge_kinds, only: dp
   use fuge_profile_edges, only: edge_displacement, edge_pressure, EDGE_NODES
+  use fuge_punch_contact_type, only: punch_contact
   implicit none
   private
 
-  !> A contact in a disc about r = 0. Without load its radius is 0.
-  type, public :: fuge_round_contact
+  !> A contact in a disc about r = 0. Without load its radius is 0. The approach is absolute; the error of the
+  !> pressure is relative to load/(pi radius**2).
+  type, extends(punch_contact), public :: fuge_round_contact
     !> Radius of the contact; length.
     real(dp) :: radius = 0.0_dp
-    !> Force, and how far the bodies approach each other, absolute; length.
-    real(dp) :: load = 0.0_dp, approach = 0.0_dp
-    !> The modulus E*; force per length squared.
-    real(dp) :: e_star = 0.0_dp
-    !> Estimated errors, no unit: of the radius, and of the pressure relative to load/(pi radius**2).
-    real(dp) :: radius_error = 0.0_dp, pressure_error = 0.0_dp
+    !> Force.
+    real(dp) :: load = 0.0_dp
+    !> Estimated error of the radius, relative to it.
+    real(dp) :: radius_error = 0.0_dp
     !> Initial gap on the axis; length.
     real(dp) :: axis_gap = 0.0_dp
     !> Abel's transform of the profile.
@@ -33,15 +33,8 @@ module fuge_round_contact_type
     procedure :: set => set_contact
     procedure :: coefficients => slope_coefficients
     procedure :: abel => transform_of
-    procedure, private :: pressure_at
-    procedure, private :: pressures_at
-    !> Contact pressure at any distance r >= 0 from the axis, one or several; force per length squared.
-    generic :: pressure => pressure_at, pressures_at
-    procedure, private :: gap_at
-    procedure, private :: gaps_at
-    !> Gap under load at any r >= 0, one or several, from the initial gap there; length. 0 in the contact,
-    !> elsewhere exact to the rounding of the initial gap.
-    generic :: gap => gap_at, gaps_at
+    procedure :: pressures_at
+    procedure :: gaps_at
   end type fuge_round_contact
 
   !> Length of a panel of xi, and the number of panels after which only chi'(0) is left.
@@ -88,23 +81,12 @@ contains
     transform = self%transform
   end function transform_of
 
-  !> Pressure at one `r`, length; force per length squared, 0 outside of the contact.
-  pure function pressure_at(self, r) result(pressure)
+  !> Pressures at several distances `places` from the axis, length; (size(places)), force per length squared, 0 outside
+  !> of the contact. In the tip of a cone the pressure is infinite: the result is the largest number.
+  pure function pressures_at(self, places) result(pressure)
     class(fuge_round_contact), intent(in) :: self
-    real(dp), intent(in) :: r
-    real(dp) :: pressure
-    real(dp) :: one(1)
-
-    one = self%pressures_at([r])
-    pressure = one(1)
-  end function pressure_at
-
-  !> Pressures at several `r`, length; (size(r)), force per length squared, 0 outside of the contact. In the tip of a
-  !> cone the pressure is infinite: the result is the largest number.
-  pure function pressures_at(self, r) result(pressure)
-    class(fuge_round_contact), intent(in) :: self
-    real(dp), intent(in) :: r(:)
-    real(dp) :: pressure(size(r))
+    real(dp), intent(in) :: places(:)
+    real(dp) :: pressure(size(places))
     real(dp), allocatable :: node(:), weight(:)
     integer :: k
 
@@ -112,11 +94,11 @@ contains
     if (.not. self%radius > 0.0_dp) return
     allocate (node(nodes_of(self%transform)), weight(nodes_of(self%transform)))
     call gauss_rule(node, weight)
-    do k = 1, size(r)
-      if (.not. abs(r(k)) > 0.0_dp .and. self%transform%tip > 0.0_dp) then
+    do k = 1, size(places)
+      if (.not. abs(places(k)) > 0.0_dp .and. self%transform%tip > 0.0_dp) then
         pressure(k) = huge(1.0_dp)
-      else if (abs(r(k)) < self%radius) then
-        pressure(k) = self%e_star/PI*pressure_integral(self%transform, abs(r(k)), node, weight)
+      else if (abs(places(k)) < self%radius) then
+        pressure(k) = self%e_star/PI*pressure_integral(self%transform, abs(places(k)), node, weight)
       end if
     end do
   end function pressures_at
@@ -168,22 +150,12 @@ contains
     if (rest < 0.5_dp) angle = asinh(sqrt(rest*(1.0_dp + ratio))/ratio)
   end function acosh_of
 
-  !> Gap at one `r`, length, where the initial gap is `initial_gap`, length.
-  pure function gap_at(self, r, initial_gap) result(gap)
+  !> Gaps at several distances `places` from the axis, length, where the initial gaps are `initial_gap` (size(places)),
+  !> length.
+  pure function gaps_at(self, places, initial_gap) result(gap)
     class(fuge_round_contact), intent(in) :: self
-    real(dp), intent(in) :: r, initial_gap
-    real(dp) :: gap
-    real(dp) :: one(1)
-
-    one = self%gaps_at([r], [initial_gap])
-    gap = one(1)
-  end function gap_at
-
-  !> Gaps at several `r`, length, where the initial gaps are `initial_gap` (size(r)), length.
-  pure function gaps_at(self, r, initial_gap) result(gap)
-    class(fuge_round_contact), intent(in) :: self
-    real(dp), intent(in) :: r(:), initial_gap(:)
-    real(dp) :: gap(size(r))
+    real(dp), intent(in) :: places(:), initial_gap(:)
+    real(dp) :: gap(size(places))
     real(dp), allocatable :: node(:), weight(:)
     integer :: k
 
@@ -197,10 +169,10 @@ contains
       weight = real(AXIS_POWER, dp)*node**(AXIS_POWER - 1)*weight
       node = node**AXIS_POWER
     end if
-    do k = 1, size(r)
-      if (abs(r(k)) > self%radius) then
-        gap(k) = gap(k) + displacement_integral(self%transform, abs(r(k)), node, weight) &
-                 + edges_displacement(self%transform, abs(r(k)))
+    do k = 1, size(places)
+      if (abs(places(k)) > self%radius) then
+        gap(k) = gap(k) + displacement_integral(self%transform, abs(places(k)), node, weight) &
+                 + edges_displacement(self%transform, abs(places(k)))
       else
         gap(k) = 0.0_dp
       end if

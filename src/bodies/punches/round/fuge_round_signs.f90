@@ -217,12 +217,12 @@ contains
     violation%tension_radius = fraction(k)*contact%radius
   end subroutine note_tension
 
-  pure function round_gaps(self, x, initial_gap) result(gap)
+  pure function round_gaps(self, places, initial_gap) result(gap)
     class(exterior_view), intent(in) :: self
-    real(dp), intent(in) :: x(:), initial_gap(:)
-    real(dp) :: gap(size(x))
+    real(dp), intent(in) :: places(:), initial_gap(:)
+    real(dp) :: gap(size(places))
 
-    gap = self%round%gap(x, initial_gap)
+    gap = self%round%gap(places, initial_gap)
   end function round_gaps
 
 end module fuge_round_signs

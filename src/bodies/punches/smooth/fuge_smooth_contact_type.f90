@@ -9,11 +9,12 @@
 module fuge_smooth_contact_type
   use fuge_chebyshev, only: second_kind_sum
   use fuge_kinds, only: dp
+  use fuge_punch_contact_type, only: punch_contact
   implicit none
   private
 
   !> A contact in one interval. Without force both ends are the same point.
-  type, public :: fuge_smooth_contact
+  type, extends(punch_contact), public :: fuge_smooth_contact
     !> Left and right end of the contact; length.
     real(dp) :: ends(2) = 0.0_dp
     !> Half the length of the contact, and its middle, anchor + offset, as a sum of two numbers,
@@ -21,84 +22,53 @@ module fuge_smooth_contact_type
     real(dp) :: half_width = 0.0_dp, anchor = 0.0_dp, offset = 0.0_dp
     !> Force per unit depth, and its moment about x = 0: force per length, and force.
     real(dp) :: force = 0.0_dp, moment = 0.0_dp
-    !> The punch moves by approach + tilt x; length, and no unit. The displacement by a line load
+    !> The punch moves by approach + tilt x; tilt has no unit. The displacement by a line load
     !> is zero at the distance 2 (upper - lower), with the ends of the profile, as in
     !> `fuge_halfplane_matrix` for cells that cover the profile.
-    real(dp) :: approach = 0.0_dp, tilt = 0.0_dp
+    real(dp) :: tilt = 0.0_dp
     !> That distance; length. 0 without force.
     real(dp) :: datum = 0.0_dp
-    !> The modulus E*; force per length squared.
-    real(dp) :: e_star = 0.0_dp
     !> Coefficients c_0, c_1, .. of the pressure; force per length squared.
     real(dp), allocatable :: coefficients(:)
-    !> Estimated errors, no unit: of half_width and of the ends, relative to half_width; of the
-    !> pressure, relative to its maximum.
-    real(dp) :: end_error = 0.0_dp, pressure_error = 0.0_dp
+    !> Estimated error of half_width and of the ends, relative to half_width; that of the pressure is relative to its
+    !> maximum.
+    real(dp) :: end_error = 0.0_dp
     !> Initial gap at the ends; length.
     real(dp) :: end_gaps(2) = 0.0_dp
   contains
-    procedure, private :: pressure_at
-    procedure, private :: pressures_at
-    !> Contact pressure at any x, one or several; force per length squared.
-    generic :: pressure => pressure_at, pressures_at
-    procedure, private :: gap_at
+    procedure :: pressures_at
     procedure :: gaps_at
-    !> Gap under load at any x, one or several, from the initial gap there; length. 0 in the
-    !> contact, elsewhere exact to the rounding of the initial gap.
-    generic :: gap => gap_at, gaps_at
   end type fuge_smooth_contact
 
 contains
 
-  !> Pressure at one `x`, length; force per length squared, 0 outside of the contact.
-  pure function pressure_at(self, x) result(pressure)
+  !> Pressures at several `places`, length; (size(places)), force per length squared, 0 outside of the contact.
+  pure function pressures_at(self, places) result(pressure)
     class(fuge_smooth_contact), intent(in) :: self
-    real(dp), intent(in) :: x
-    real(dp) :: pressure
-    real(dp) :: one(1)
-
-    one = self%pressures_at([x])
-    pressure = one(1)
-  end function pressure_at
-
-  !> Pressures at several `x`, length; (size(x)), force per length squared, 0 outside of the contact.
-  pure function pressures_at(self, x) result(pressure)
-    class(fuge_smooth_contact), intent(in) :: self
-    real(dp), intent(in) :: x(:)
-    real(dp) :: pressure(size(x))
-    real(dp) :: t(size(x))
+    real(dp), intent(in) :: places(:)
+    real(dp) :: pressure(size(places))
+    real(dp) :: t(size(places))
 
     pressure = 0.0_dp
     if (.not. allocated(self%coefficients)) return
-    t = max(-1.0_dp, min(1.0_dp, ((x - self%anchor) - self%offset)/self%half_width))
+    t = max(-1.0_dp, min(1.0_dp, ((places - self%anchor) - self%offset)/self%half_width))
     pressure = sqrt((1.0_dp - t)*(1.0_dp + t))*second_kind_sum(self%coefficients, t)
   end function pressures_at
 
-  !> Gap at one `x`, length, where the initial gap is `initial_gap`, length.
-  pure function gap_at(self, x, initial_gap) result(gap)
-    class(fuge_smooth_contact), intent(in) :: self
-    real(dp), intent(in) :: x, initial_gap
-    real(dp) :: gap
-    real(dp) :: one(1)
-
-    one = self%gaps_at([x], [initial_gap])
-    gap = one(1)
-  end function gap_at
-
-  !> Gaps at several `x`, length, where the initial gaps are `initial_gap` (size(x)), length.
+  !> Gaps at several `places`, length, where the initial gaps are `initial_gap` (size(places)), length.
   !>
   !> The slope of the gap outside of the contact is g' - tilt - sum_k (2 c_(k-1)/E*) w**k, k >= 1,
   !> which is integrated over t from the end term by term.
-  pure function gaps_at(self, x, initial_gap) result(gap)
+  pure function gaps_at(self, places, initial_gap) result(gap)
     class(fuge_smooth_contact), intent(in) :: self
-    real(dp), intent(in) :: x(:), initial_gap(:)
-    real(dp) :: gap(size(x))
-    real(dp) :: outside(size(x)), w(size(x)), series(size(x))
-    integer :: side(size(x))
+    real(dp), intent(in) :: places(:), initial_gap(:)
+    real(dp) :: gap(size(places))
+    real(dp) :: outside(size(places)), w(size(places)), series(size(places))
+    integer :: side(size(places))
 
-    side = merge(1, 2, x <= self%ends(1))
-    outside = merge(self%ends(1) - x, x - self%ends(2), side == 1)
-    gap = (initial_gap - self%end_gaps(side)) - self%tilt*(x - self%ends(side))
+    side = merge(1, 2, places <= self%ends(1))
+    outside = merge(self%ends(1) - places, places - self%ends(2), side == 1)
+    gap = (initial_gap - self%end_gaps(side)) - self%tilt*(places - self%ends(side))
     if (allocated(self%coefficients)) then
       w = small_root(max(0.0_dp, outside)/self%half_width)
       series = slope_integrals(self%coefficients, w, merge(-1, 1, side == 1))
