@@ -4,6 +4,7 @@
 # What the modules fuge_<component> pass on, folder by folder: procedures with their arguments, types with their public
 # components and procedures, constants with their values; then fuge_sparse and fuge_mpi. In the sources a docstring is
 # lines `!> ...` right before what it is about.
+include("${CMAKE_CURRENT_LIST_DIR}/uses.cmake")
 
 # CMake takes these characters as its own: others stand for them.
 string(ASCII 1 fuge_bracket)

@@ -48,8 +48,8 @@ def read_mesh(path: PathLike) -> Mesh:
     Raises
     ------
     FileError
-        The message has the file, the line and the reason; also for what is no keyword, and for keywords such as *PART
-        and *NGEN, without which the mesh would be another one.
+        The message has the file, the line and the reason; also for what is no keyword, and for keywords such as
+        ``*PART`` and ``*NGEN``, without which the mesh would be another one.
     """
     paths: list[str] = []
     return mesh_of(read_blocks(path, paths), path, paths)
