@@ -1,13 +1,13 @@
 # Sets `fuge_components`, the components of src/ that are built: FUGE_COMPONENTS and those that they use according to
 # src/components.txt; the others are in `fuge_left_out_components`.
-set(FUGE_COMPONENTS core area layers punch stress fe files CACHE STRING
+set(FUGE_COMPONENTS core elastic halfplane halfspace rings layers punches fe files CACHE STRING
   "Components of the library, a list: what they use is built with them")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS src/components.txt)
 
 # uses_<component>: what a component uses.
 include(cmake/uses.cmake)
 fuge_read_uses("${PROJECT_SOURCE_DIR}/src/components.txt" uses_)
-# The facade uses just the seven.
+# The facade uses just these.
 set(fuge_all_components ${uses_facade})
 
 set(fuge_components)

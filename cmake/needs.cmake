@@ -17,9 +17,10 @@ list(JOIN fuge_of_fftw "|" fuge_of_fftw)
 # fuge_owner_<name>, in lower case: the component that has the module, that exports the Fortran name, or whose header
 # declares the C function.
 foreach(component IN LISTS fuge_all_components)
-  file(GLOB_RECURSE names CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${component}/*.f90")
+  fuge_component_folder(folder "${PROJECT_SOURCE_DIR}/src" "${component}")
+  file(GLOB_RECURSE names CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${folder}/*.f90")
   list(TRANSFORM names REPLACE "^.*/|[.]f90$" "")
-  file(READ "${PROJECT_SOURCE_DIR}/src/${component}/fuge_${component}.f90" text)
+  file(READ "${PROJECT_SOURCE_DIR}/src/${folder}/fuge_${component}.f90" text)
   string(TOLOWER "${text}" text)
   # The arguments of `only:`, which go on in the next lines.
   string(REGEX REPLACE "use [a-z_0-9]+, only:" "" text "${text}")

@@ -4,6 +4,7 @@
 # What the modules fuge_<component> pass on, folder by folder: procedures with their arguments, types with their public
 # components and procedures, constants with their values; then fuge_sparse and fuge_mpi. In the sources a docstring is
 # lines `!> ...` right before what it is about.
+include("${CMAKE_CURRENT_LIST_DIR}/uses.cmake")
 
 # CMake takes these characters as its own: others stand for them.
 string(ASCII 1 fuge_bracket)
@@ -173,7 +174,8 @@ endfunction()
 function(fuge_write_reference root file)
   set(uses)
   foreach(component IN LISTS ARGN)
-    file(READ "${root}/src/${component}/fuge_${component}.f90" facade)
+    fuge_component_folder(folder "${root}/src" "${component}")
+    file(READ "${root}/src/${folder}/fuge_${component}.f90" facade)
     string(REGEX REPLACE "&[ \t]*\n" " " facade "${facade}")
     string(REGEX MATCHALL "\n *use [^\n]+" more "${facade}")
     list(APPEND uses ${more})
@@ -199,7 +201,7 @@ function(fuge_write_reference root file)
   endforeach()
   list(REMOVE_DUPLICATES folders)
   set(page "# Fortran interface\n\nWhat the module `fuge` has, by the folders of the source, from the docstrings there; the
-first part of a folder is its component, whose names the modules `fuge_core`, `fuge_area` and so on have alone. `dp` is
+first part of a folder is its component, whose names the modules `fuge_core`, `fuge_halfspace` and so on have alone. `dp` is
 `fuge_dp`, and `self` the variable of the type.\n\n")
   foreach(folder IN LISTS folders)
     string(MAKE_C_IDENTIFIER "${folder}" key)
@@ -214,12 +216,12 @@ first part of a folder is its component, whose names the modules `fuge_core`, `f
     fuge_describe_module("${root}/src/sparse/fuge_sparse.f90" fuge_sparse_stiffness)
     string(APPEND page "\n## The module fuge_sparse\n\n${described}")
   endif()
-  if(area IN_LIST ARGN)
-    fuge_describe_module("${root}/src/mpi/halfspace/fuge_slab_halfspace.f90" fuge_mpi_halfspace_operator)
+  if(layers IN_LIST ARGN)
+    fuge_describe_module("${root}/src/mpi/slabs/fuge_slab_halfspace.f90" fuge_mpi_halfspace_operator)
     string(APPEND page "\n## The module fuge_mpi\n\n${described}")
-    fuge_describe_module("${root}/src/mpi/halfplane/fuge_line_halfplane.f90" fuge_mpi_halfplane_operator)
+    fuge_describe_module("${root}/src/mpi/lines/fuge_line_halfplane.f90" fuge_mpi_halfplane_operator)
     string(APPEND page "${described}")
-    fuge_describe_module("${root}/src/mpi/halfspace/fuge_slab_files.f90" fuge_mpi_read_rows fuge_mpi_write_rows)
+    fuge_describe_module("${root}/src/mpi/slabs/fuge_slab_files.f90" fuge_mpi_read_rows fuge_mpi_write_rows)
     string(APPEND page "${described}")
   endif()
   fuge_show("${page}" page)

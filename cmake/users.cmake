@@ -1,4 +1,4 @@
-# The labels of what has to be tested: cmake -D SRC=src -D "FOLDERS=area core/engines/path" -P users.cmake
+# The labels of what has to be tested: cmake -D SRC=src -D "FOLDERS=halfspace core/solver/path" -P users.cmake
 #
 # Prints the components and folders of src/ that are named or may use one of those, directly or through others, as a
 # pattern of labels for ctest. Nothing, and a message, if there is no component or folder of such a name.
@@ -23,8 +23,9 @@ endforeach()
 # result: is `folder`, or one around it, among those found?
 function(is_found result folder)
   set(${result} FALSE PARENT_SCOPE)
+  fuge_component_of(component "${folder}")
   foreach(one IN LISTS found)
-    if("${folder}/" MATCHES "^${one}/")
+    if("${folder}/" MATCHES "^${one}/" OR component STREQUAL one)
       set(${result} TRUE PARENT_SCOPE)
       break()
     endif()

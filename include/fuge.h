@@ -72,12 +72,14 @@
 #ifndef FUGE_H
 #define FUGE_H
 
-#include "fuge_core.h"    /* problems, operators, solvers, results; the half-plane */
-#include "fuge_area.h"    /* areas of contact: the half-space, rings, Hertz */
-#include "fuge_layers.h"  /* coated and layered bodies */
-#include "fuge_punch.h"   /* smooth punches and round ones, without a grid */
-#include "fuge_stress.h"  /* stresses and displacements in the bodies */
-#include "fuge_fe.h"      /* bodies of finite elements: condensation, pairs of surfaces */
-#include "fuge_files.h"   /* results on grids and meshes for ParaView */
+#include "fuge_core.h"       /* problems, operators, solvers, results */
+#include "fuge_elastic.h"    /* what all elastic bodies share: moduli, cells, fields inside */
+#include "fuge_halfplane.h"  /* cells on a half-plane, edges of contact */
+#include "fuge_halfspace.h"  /* rectangles on a half-space */
+#include "fuge_rings.h"      /* round bodies on rings */
+#include "fuge_layers.h"     /* coated and layered bodies */
+#include "fuge_punches.h"    /* Hertz; smooth punches and round ones, without a grid */
+#include "fuge_fe.h"         /* bodies of finite elements: condensation, pairs of surfaces */
+#include "fuge_files.h"      /* results on grids and meshes for ParaView */
 
 #endif

@@ -16,7 +16,7 @@ extern "C" {
  * From the stiffness matrix K of a body to the influence matrix of its contact points (a
  * Schur complement), and back from contact forces to the displacements of the whole body.
  *
- *     fuge_body_dense, _band or _sparse -> fuge_body_fix, _set_load, _set_contact, ..
+ *     fuge_body_dense, _band, _columns or _sparse -> fuge_body_fix, _set_load, _set_contact, ..
  *     -> fuge_body_condense -> fuge_body_get_...
  *     -> fuge_operator_dense(alpha), gaps + displacement, solve -> fuge_body_recover
  *     -> fuge_body_free
@@ -47,7 +47,11 @@ int fuge_body_band(int degrees, int kd, const double *ab, int ldab, int upper, f
 
 /* The same for compressed columns: column j holds row[p] and value[p] for
  * column[j] <= p < column[j+1], rows in any order, repeated entries are added; both
- * triangles or one of them.  In the library fuge_sparse, which needs CHOLMOD. */
+ * triangles or one of them.  The first is factorised as a band, whose width depends on the
+ * numbering of degrees of freedom; the second, for all but small models, by CHOLMOD, which the
+ * library fuge_sparse needs. */
+int fuge_body_columns(int degrees, const int *column, const int *row, const double *value,
+                      fuge_body **body, char *message, size_t len);
 int fuge_body_sparse(int degrees, const int *column, const int *row, const double *value,
                      fuge_body **body, char *message, size_t len);
 
@@ -255,14 +259,18 @@ int fuge_pairs_message(const fuge_pairs *pairs, char *message, size_t len);
  * From the stiffness matrices and the surfaces of bodies whose meshes need not match to
  * contact forces, pressures and displacements.
  *
- *     fuge_bodies_create -> fuge_bodies_add, for each body -> fuge_bodies_fix, _set_load
- *     -> for each pair of surfaces: fuge_bodies_set_contact, _set_opposite, _add_pair
- *     -> fuge_bodies_solve or fuge_bodies_solve_sparse -> fuge_bodies_get_...
- *     -> fuge_bodies_free
+ *     for each body: fuge_body_columns, fuge_body_fix, fuge_body_set_load
+ *     fuge_bodies_create -> fuge_bodies_add, for each body
+ *     -> for each pair of surfaces: fuge_pairs_set_contact, fuge_pairs_set_opposite,
+ *        fuge_bodies_add_pair
+ *     -> fuge_bodies_solve or fuge_bodies_solve_sparse
+ *     -> fuge_bodies_get_..., fuge_pairs_get_...
+ *     -> fuge_bodies_free, then fuge_body_free and fuge_pairs_free
  *
  * Bodies, their degrees of freedom, pairs, nodes and faces count from 0, and each body has
  * its own degrees of freedom.  Bodies may float: rigid motions that the supports leave are
- * found.  Sliding is small, without friction. */
+ * found, unless fuge_body_set_rigid_modes gives those of all bodies that float.  Contact points of
+ * fuge_body_set_contact do not count here.  Sliding is small, without friction. */
 
 typedef struct fuge_bodies fuge_bodies;
 
@@ -272,80 +280,53 @@ int fuge_bodies_create(fuge_bodies **bodies, char *message, size_t len);
 /* Free and set *bodies to NULL; NULL and *bodies == NULL are fine. */
 void fuge_bodies_free(fuge_bodies **bodies);
 
-/* Add a body by its stiffness matrix in compressed columns: column j holds row[p] and
- * value[p] for column[j] <= p < column[j+1], rows in any order, repeated entries are added;
- * both triangles or one of them.  The arrays are copied;
- * their contents are checked by fuge_bodies_join and fuge_bodies_solve.
- *   body  out  number of the body: 0 for the first one, and so on; may be NULL
- * FUGE_ERR_SIZE, FUGE_ERR_MEMORY. */
-int fuge_bodies_add(fuge_bodies *bodies, int degrees, const int *column, const int *row,
-                    const double *value, int *body);
+/* Add a body, of any kind of matrix.  It is not copied: keep it as long as the bodies are solved;
+ * supports and loads are those that it has at the time of a solve, where its contents are checked.
+ *   number  out  0 for the first one, and so on; may be NULL
+ * FUGE_ERR_MEMORY. */
+int fuge_bodies_add(fuge_bodies *bodies, const fuge_body *body, int *number);
 
-/* Supports and load of a body, as fuge_body_fix and fuge_body_set_load.  Each call replaces
- * the one before.  FUGE_ERR_SIZE if there is no such body. */
-int fuge_bodies_fix(fuge_bodies *bodies, int body, int count, const int *dof,
-                    const double *displacement);
-int fuge_bodies_set_load(fuge_bodies *bodies, int body, const double *load);
-
-/* Rigid modes that the supports of a body leave (degrees x m), for all bodies that float or
- * for none: then they are found. */
-int fuge_bodies_set_rigid_modes(fuge_bodies *bodies, int body, int m, const double *rigid_modes);
-
-/* The surfaces of the next pair, as fuge_pairs_set_contact and fuge_pairs_set_opposite, with
- * degrees of freedom of the body; both may be of one body.  body = -1, dof = NULL: the
- * surface is rigid and held in space. */
-int fuge_bodies_set_contact(fuge_bodies *bodies, int body, int dimensions, int nodes,
-                            const double *node, int most, int faces, const int *face,
-                            const int *dof);
-int fuge_bodies_set_opposite(fuge_bodies *bodies, int body, int dimensions, int nodes,
-                             const double *node, int most, int faces, const int *face,
-                             const int *dof);
-
-/* As fuge_pairs_set_geometry, for the pairs that are added from now on. */
-int fuge_bodies_set_geometry(fuge_bodies *bodies, double crease, int revolution);
-
-/* Add a pair of these surfaces; arguments as fuge_pairs_find, which are checked, with the
- * surfaces, by fuge_bodies_join and fuge_bodies_solve.  FUGE_ERR_CALL_ORDER without both
- * surfaces, FUGE_ERR_MEMORY. */
-int fuge_bodies_add_pair(fuge_bodies *bodies, int method, int normals, const double *normal,
+/* Add a pair of the surfaces that fuge_pairs_set_contact and fuge_pairs_set_opposite have given to
+ * `pairs`, each with degrees of freedom of its own body; they are copied, and so is what
+ * fuge_pairs_set_geometry has set.
+ *   contact_body, opposite_body  in  numbers of the bodies, which may be the same; -1, and
+ *                                    dof = NULL: the surface is rigid and held in space
+ * The other arguments are those of fuge_pairs_find.  Numbers and surfaces are checked by
+ * fuge_bodies_join and fuge_bodies_solve.  FUGE_ERR_CALL_ORDER without both surfaces, FUGE_ERR_MEMORY. */
+int fuge_bodies_add_pair(fuge_bodies *bodies, int contact_body, int opposite_body,
+                         const fuge_pairs *pairs, int method, int normals, const double *normal,
                          double reach, double play, int tied, int smooth);
 
-/* Solve; opt may be NULL.  The matrix of all bodies is kept as a band, whose width depends on
- * the numbering of degrees of freedom; for all but small models use fuge_bodies_solve_sparse,
- * in the library fuge_sparse, which needs CHOLMOD.  Warnings: those of fuge_solve, else those
+/* Solve.
+ *   opt    in   may be NULL
+ *   pairs  out  the contact points, in place of those that it has, for fuge_pairs_get_sizes, _gaps,
+ *               _points and _unpaired; may be NULL
+ * The matrix of all bodies is kept as a band, whose width depends on the numbering of degrees of
+ * freedom; for all but small models use fuge_bodies_solve_sparse, in the library fuge_sparse,
+ * which needs CHOLMOD.  Warnings: those of fuge_solve, else those
  * of fuge_body_condense and fuge_body_recover, or FUGE_WARN_PAIRS, or FUGE_WARN_NO_CONTACT:
  * loads and supports open every gap; they pull, or all surfaces look into their bodies.
  * Errors name the body or the pair, the results of the solve before stay: those of
  * fuge_pairs_find, fuge_body_condense and fuge_solve; FUGE_ERR_GAP also where supports hold two
  * surfaces inside each other; FUGE_ERR_MESH also for a surface that looks into its body, which
  * the matrix knows if `node` has the body's other nodes too, with their dof. */
-int fuge_bodies_solve(fuge_bodies *bodies, const fuge_options *opt);
-int fuge_bodies_solve_sparse(fuge_bodies *bodies, const fuge_options *opt);
+int fuge_bodies_solve(fuge_bodies *bodies, const fuge_options *opt, fuge_pairs *pairs);
+int fuge_bodies_solve_sparse(fuge_bodies *bodies, const fuge_options *opt, fuge_pairs *pairs);
 
-/* Contact points n, nodes without an opposite, and bodies.  The getters below give
+/* Contact forces, one for each contact point; negative only at an upper stop and at tied points,
+ * where they are the components along the axes of the force of the contact surface on the opposite
+ * one.  Pressures, force over area, and gaps under load.  This and the next give
  * FUGE_ERR_CALL_ORDER before a solve, and each pointer may be NULL. */
-int fuge_bodies_get_sizes(const fuge_bodies *bodies, int *n, int *unpaired, int *bodies_number);
-
-/* Contact forces, n; negative only at an upper stop and at tied points, where they are the
- * components along the axes of the force of the contact surface on the opposite one.
- * Pressures, force over area, and gaps under load. */
 int fuge_bodies_get_forces(const fuge_bodies *bodies, double *force, double *pressure, double *gap);
 
-/* Where the contact points are, as fuge_pairs_get_points; their areas and initial gaps, n. */
-int fuge_bodies_get_points(const fuge_bodies *bodies, int *pair, int *node, int *face,
-                           double *place, double *direction);
-int fuge_bodies_get_areas(const fuge_bodies *bodies, double *area, double *initial_gap);
-
-/* Pair and node of the nodes that have no opposite, and so are no contact points. */
-int fuge_bodies_get_unpaired(const fuge_bodies *bodies, int *pair, int *node);
-
-/* Displacements of all degrees of freedom of one body, length. */
+/* Displacements of all degrees of freedom of one body, length.  FUGE_ERR_SIZE if there is no such
+ * body. */
 int fuge_bodies_get_displacement(const fuge_bodies *bodies, int body, double *displacement);
 
 /* Report of the last solve, failed or not. */
 int fuge_bodies_get_info(const fuge_bodies *bodies, fuge_info *info);
 
-/* Message of the last call on bodies that set or solved, or of the last error; as
+/* Message of the last call on bodies that added, joined or solved, or of the last error; as
  * fuge_body_message. */
 int fuge_bodies_message(const fuge_bodies *bodies, char *message, size_t len);
 
@@ -356,24 +337,19 @@ int fuge_bodies_message(const fuge_bodies *bodies, char *message, size_t len);
  * fuge_body_fix and fuge_body_set_load (degree of freedom j of body k is first[k] + j),
  * fuge_body_find_rigid_modes, fuge_body_set_contact. */
 
-/* Join; FUGE_WARN_PAIRS and errors as fuge_bodies_solve.  The getters below give
- * FUGE_ERR_CALL_ORDER before it, and after a call that sets or adds something. */
-int fuge_bodies_join(fuge_bodies *bodies);
+/* Join.
+ *   pairs             out  the contact points, as fuge_bodies_solve, with degrees of freedom of all
+ *                          bodies: fuge_pairs_get_contact has what fuge_body_set_contact takes; may
+ *                          be NULL
+ *   degrees, entries  out  degrees of freedom and entries of the matrix of all bodies; may be NULL
+ * FUGE_WARN_PAIRS and errors as fuge_bodies_solve. */
+int fuge_bodies_join(fuge_bodies *bodies, fuge_pairs *pairs, int *degrees, int *entries);
 
-/* Degrees of freedom and entries of the matrix of all bodies, contact points n and degrees
- * of freedom of each, `width`. */
-int fuge_bodies_get_joined_sizes(const fuge_bodies *bodies, int *degrees, int *entries, int *n,
-                                 int *width);
-
-/* The upper triangle in compressed columns, as fuge_body_sparse takes it: column has
- * degrees + 1 elements, row and value have `entries`; first: degrees of freedom before those
- * of each body, one more than bodies. */
+/* Of the last join, the upper triangle in compressed columns, as fuge_body_sparse takes it: column
+ * has degrees + 1 elements, row and value have `entries`; first: degrees of freedom before those
+ * of each body, one more than bodies.  Each may be NULL.  FUGE_ERR_CALL_ORDER before a join. */
 int fuge_bodies_get_matrix(const fuge_bodies *bodies, int *column, int *row, double *value,
                            int *first);
-
-/* What fuge_body_set_contact takes, width x n, and initial gaps, plays and areas, n. */
-int fuge_bodies_get_contact(const fuge_bodies *bodies, int *dof, double *normal, double *gap,
-                            double *gap_upper, double *area);
 
 /* ---- links of structures ------------------------------------------------
  *

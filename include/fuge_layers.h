@@ -3,7 +3,7 @@
  * Included by fuge.h, whose conventions hold here too.
  *
  * Elastic layers lie on a half-space or on a rigid base.  The operators are those of the
- * half-plane and the half-space of fuge_core.h and fuge_area.h with another surface: solvers,
+ * half-plane and the half-space of fuge_halfplane.h and fuge_halfspace.h with another surface: solvers,
  * coarser grids, windows and threads are the same.
  *   layers         in   >= 0
  *   thickness      in   layers, from the surface down; length
@@ -25,7 +25,9 @@
 #define FUGE_LAYERS_H
 
 #include <stddef.h>
-#include "fuge_area.h"
+#include "fuge_halfplane.h"
+#include "fuge_halfspace.h"
+#include "fuge_rings.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -137,6 +139,31 @@ int fuge_layered_modulus(int layers, const double *thickness, const double *youn
  * FUGE_ERR_WIDTH for the radius, FUGE_ERR_MODULUS, FUGE_ERR_OPTION for the share. */
 int fuge_coating_limits(const double *young, const double *poisson, double radius, double share,
                         double *thin, double *thick, char *message, size_t len);
+
+/* ---- fields -------------------------------------------------------------- */
+
+/* Under cells on bodies of layers (layers .. bonded as above), in the body that these
+ * describe, not in the other one; element is FUGE_CENTRE or FUGE_MEAN.  A line is in plane strain.
+ * With FUGE_PERIODIC the mean pressure gives the half-space below the layers no stress along the
+ * surface, and the layers the same strain as it has; on a rigid base layers have no strain along
+ * the surface, and displacements count from the base.  FUGE_ERR_GRID for a place in a rigid base. */
+int fuge_field_layered_line(int layers, const double *thickness, const double *young,
+                            const double *poisson, int bonded, int n, const double *x,
+                            const double *width, const double *force, int element, int symmetric,
+                            fuge_field **field, char *message, size_t len);
+int fuge_field_layered_line_grid(int layers, const double *thickness, const double *young,
+                                 const double *poisson, int bonded, int n, double spacing,
+                                 const double *force, int element, int boundary,
+                                 fuge_field **field, char *message, size_t len);
+int fuge_field_layered_area(int layers, const double *thickness, const double *young,
+                            const double *poisson, int bonded, int n, const double *x,
+                            const double *y, const double *width_x, const double *width_y,
+                            const double *force, int symmetric_x, int symmetric_y,
+                            fuge_field **field, char *message, size_t len);
+int fuge_field_layered_area_grid(int layers, const double *thickness, const double *young,
+                                 const double *poisson, int bonded, int nx, int ny,
+                                 double spacing_x, double spacing_y, const double *force,
+                                 int boundary, fuge_field **field, char *message, size_t len);
 
 #ifdef __cplusplus
 }

@@ -70,7 +70,7 @@ def solve_by_fuge(model, surfaces, moved=None, smooth=True, unit_length=1.0, uni
     both = bodies.add(replace(stiffness, value=stiffness.value * (unit_force / unit_length)))
     bodies.add_pair(both, contact, both, opposite, smooth=smooth)
     if moved:
-        bodies.fix(both, mesh.set_dof(moved[0], 3, stiffness), moved[1])
+        both.fix(mesh.set_dof(moved[0], 3, stiffness), moved[1])
     found = SimpleNamespace(contact=bodies.solve(), assembling=assembling, solving=time.process_time() - start)
     found.degrees, found.node = stiffness.node.size, mesh.node[found.contact.node]
     found.position = mesh.position[found.contact.node]

@@ -9,7 +9,7 @@ Units are yours, as long as they are consistent; points count from 0. Errors are
 those of Python (:class:`Warning`). The interpreter lock is released during calls, so that threads run side by side.
 What follows is a map; ``help(fuge.solve)`` and the like have parameters, shapes and units.
 
-How the bodies deform: an operator, whose ``operator @ force`` are displacements
+How the bodies deform: an operator, whose ``operator @ force`` are displacements::
 
     a matrix, displacement per force        used as it is, or DenseOperator(alpha)
     HalfplaneOperator(n, spacing, e_star)   line contact, equal cells, by FFT
@@ -24,7 +24,7 @@ How the bodies deform: an operator, whose ``operator @ force`` are displacements
     plane_modulus, combined_modulus         the modulus e_star of two bodies
     displacement_shares, ring_displacement  shares of the bodies in the displacements; the surface beside rings
 
-Solving: gaps and a load, a prescribed approach, or several rigid motions
+Solving: gaps and a load, a prescribed approach, or several rigid motions::
 
     solve(operator, gap, load)              one problem; the result is a Contact with its Info
     Solver(operator)                        one solve after the other; a Derivative, and the History of the tableau
@@ -37,9 +37,9 @@ Solving: gaps and a load, a prescribed approach, or several rigid motions
     hertz_ellipse                           Hertz in closed form: HertzContact
     solve_lcp(M, q), solve_qp(P, q, G, h, A, b)   problems without a contact: LcpSolution, QpSolution
     solve_smooth_punch                      one interval under a smooth profile, without a grid: SmoothContact
-    solve_round_punch, solve_round_powers   the same for punches of revolution: RoundContact
+    solve_round_punch, solve_round_powers   the same for punches of revolution: RoundContact; both are a PunchContact
 
-Bodies of finite elements
+Bodies of finite elements::
 
     Body(stiffness).condense()              one body condensed to its contact points: Condensed
     Links                                   supports that lift off, gaps, cables and struts of a structure
@@ -52,7 +52,7 @@ Bodies of finite elements
     rigid_modes                             rigid motions of nodes
     CompressedColumns                       sparse matrices without scipy
 
-Surfaces, profiles and matrices in files
+Surfaces, profiles and matrices in files::
 
     read_surface(path), fill_surface, level_surface, write_surface   measured heights: SurfaceHeights
     read_profile, sample_profile, level_profile
@@ -60,7 +60,7 @@ Surfaces, profiles and matrices in files
     read_matrix, write_matrix, read_sparse, write_sparse   Matrix Market
     write_results, write_volume              pressures, gaps and stresses on grids for ParaView
 
-Stresses and displacements in the bodies
+Stresses and displacements in the bodies::
 
     contact.field(young=, poisson=)         the Field of a contact; contact.field() with layers
     Field.halfplane, Field.halfspace, Field.rings            of cells and forces
@@ -71,11 +71,11 @@ Stresses and displacements in the bodies
     Field.interfaces                        what cracks coatings: InterfaceStress
     von_mises, tresca, mean_stress, principal_stresses       of tensors
 
-Pictures by matplotlib, one call each on what a solve returns
+Pictures by matplotlib, one call each on what a solve returns::
 
     plot.map, plot.line, plot.gap, plot.stress, plot.path
 
-What can go wrong: each error and warning has a Status and a message that says how to mend it
+What can go wrong: each error and warning has a Status and a message that says how to mend it::
 
     Error: InputError, MatrixError, EquilibriumError, LimitError, UnsupportedError, CallOrderError, FileError,
         OutOfMemoryError, CallbackError, CancelledError
@@ -127,6 +127,7 @@ from fuge.formats.matrix_market import (
     write_matrix as write_matrix,
     write_sparse as write_sparse,
 )
+from fuge.formats.mesh_input import read_mesh as read_mesh
 from fuge.formats.profiles import read_profile as read_profile
 from fuge.formats.stiffness import read_stiffness as read_stiffness
 from fuge.formats.surfaces import (
@@ -157,17 +158,19 @@ from fuge.heights import (
     level_surface as level_surface,
     sample_profile as sample_profile,
 )
+from fuge.layered_operators import (
+    LayeredHalfplaneOperator as LayeredHalfplaneOperator,
+    LayeredHalfspaceOperator as LayeredHalfspaceOperator,
+)
 from fuge.layers import (
     CoatingLimits as CoatingLimits,
     GradedLayers as GradedLayers,
-    LayeredHalfplaneOperator as LayeredHalfplaneOperator,
-    LayeredHalfspaceOperator as LayeredHalfspaceOperator,
     Layers as Layers,
     coating_limits as coating_limits,
     graded_layers as graded_layers,
 )
 from fuge.links import Links as Links, remove_member as remove_member
-from fuge.mesh import Mesh as Mesh, join_meshes as join_meshes, read_mesh as read_mesh
+from fuge.mesh import Mesh as Mesh, join_meshes as join_meshes
 from fuge.operators import (
     CallbackOperator as CallbackOperator,
     DenseOperator as DenseOperator,
@@ -187,6 +190,7 @@ from fuge.programs import (
 from fuge.proof import Proof as Proof
 from fuge.results import write_results as write_results, write_volume as write_volume
 from fuge.smooth import (
+    PunchContact as PunchContact,
     RoundContact as RoundContact,
     SmoothContact as SmoothContact,
     solve_round_powers as solve_round_powers,

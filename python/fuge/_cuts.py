@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from fuge.cells import Cells
 from fuge.errors import Status, error
 from fuge.field import Field
-from fuge.smooth import RoundContact, SmoothContact
 from fuge.stress_measures import tresca
 
 Doubles = NDArray[np.float64]
@@ -74,13 +73,6 @@ def cut_through(field: Field, axis: int, below: float | None) -> Cut:
     if field.cells is None:
         return _through_loads(field, axis, below)
     return _through_cells(field, field.cells, axis, below)
-
-
-def ends(contact: SmoothContact | RoundContact) -> tuple[float, float]:
-    """Where a contact without a grid begins and ends, along x."""
-    if isinstance(contact, RoundContact):
-        return -contact.radius, contact.radius
-    return contact.left, contact.right
 
 
 def _depths(field: Field, length: float, below: float | None) -> Doubles:

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import ctypes
 import warnings
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Iterator
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fuge import _arrays
 from fuge._calls import Owner, new_handle
 from fuge._library import has_sparse, struct
-from fuge.columns import CompressedColumns, compressed, compressed_dense, is_sparse, require_sparse
+from fuge.body import Body
+from fuge.columns import CompressedColumns, require_sparse
 from fuge.contact import Info, info_of
 from fuge.errors import Status, error
-from fuge.pairs import Normals, PairMethod, Surface, pair_options, surface_arguments
+from fuge.pairs import ContactPairs, Normals, PairMethod, Surface, pair_options
 from fuge.reactions import opening_rows, symmetric
 from fuge.solver import ALL_CORES, Method, chosen_options
 
@@ -46,7 +47,7 @@ class BodiesContact:
     displacement : list of ndarray
         For each body, of all its degrees of freedom; length.
     reaction : list of ndarray
-        For each body, forces of the supports on it, in the order of :meth:`ElasticBodies.fix`.
+        For each body, forces of the supports on it, in the order of :meth:`Body.fix`.
     info : Info
         Report, with the certificate.
     message : str
@@ -111,8 +112,8 @@ class ElasticBodies(Owner):
     --------
     >>> bodies = fuge.ElasticBodies()
     >>> block, punch = bodies.add(block_stiffness), bodies.add(punch_stiffness)
-    >>> bodies.fix(block, block_supports)
-    >>> bodies.set_load(punch, punch_load)
+    >>> block.fix(block_supports)
+    >>> punch.set_load(punch_load)
     >>> bodies.add_pair(punch, punch_surface, block, block_surface)
     >>> contact = bodies.solve()
     """
@@ -121,67 +122,36 @@ class ElasticBodies(Owner):
 
     def __init__(self) -> None:
         self._handle = new_handle("bodies", "fuge_bodies_create", "fuge_bodies_free")
-        self._matrices: list[CompressedColumns] = []
-        self._degrees: list[int] = []
-        self._fixed: list[NDArray[np.intc]] = []
-        self._loads: list[NDArray[np.float64]] = []
+        self._pairs = ContactPairs()
+        self._bodies: list[Body] = []
         self._surfaces: list[tuple[int, Surface]] = []
-        self._dimensions = 0
 
     def __repr__(self) -> str:
-        return (
-            f"<ElasticBodies: {len(self._degrees)} bodies of {', '.join(map(str, self._degrees))} degrees of freedom>"
-        )
+        degrees = ", ".join(str(body.degrees) for body in self._bodies)
+        return f"<ElasticBodies: {len(self._bodies)} bodies of {degrees} degrees of freedom>"
 
-    def add(self, stiffness: Any) -> int:
-        """Add a body and return its number, from 0.
+    def add(self, body: Any) -> Body:
+        """Add a body and return it; supports and load are those that it has at the time of a solve.
+
+        Bodies are numbered from 0, in messages and in :class:`BodiesContact`. Give the rigid modes of all bodies that
+        float, or of none: then they are found.
 
         Parameters
         ----------
-        stiffness : scipy.sparse matrix, CompressedColumns or StiffnessFile, or array_like of shape (degrees, degrees)
-            Symmetric, both triangles or one of them.
+        body : Body, or a stiffness matrix as :class:`Body` takes it
         """
-        pack = compressed if is_sparse(stiffness) else compressed_dense
-        matrix = pack("stiffness", stiffness)
-        if matrix.shape[0] != matrix.shape[1]:
-            raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
-        body = np.empty(1, dtype=np.intc)
-        self._call("fuge_bodies_add", matrix.shape[0], matrix.column, matrix.row, matrix.value, body)
-        self._matrices.append(matrix)
-        self._degrees.append(matrix.shape[0])
-        self._fixed.append(np.empty(0, dtype=np.intc))
-        self._loads.append(np.zeros(matrix.shape[0]))
-        return int(body[0])
-
-    def fix(self, body: int, dof: ArrayLike, displacement: ArrayLike | None = None) -> None:
-        """Fix degrees of freedom of a body; see :meth:`Body.fix`."""
-        fixed = _arrays.integers("dof", dof, (None,))
-        given = None if displacement is None else _arrays.spread("displacement", displacement, fixed.size)
-        number = self._number(body)
-        self._call("fuge_bodies_fix", number, fixed.size, fixed, given)
-        self._fixed[number] = fixed.copy()
-
-    def set_load(self, body: int, load: ArrayLike) -> None:
-        """Set the external load of a body, one force for each of its degrees of freedom."""
-        number = self._number(body)
-        forces = _arrays.vector("load", load, self._degrees[number])
-        self._call("fuge_bodies_set_load", number, forces)
-        self._loads[number] = forces.copy()
-
-    def set_rigid_modes(self, body: int, rigid_modes: ArrayLike) -> None:
-        """Set the rigid modes that the supports of a body leave, (degrees, m).
-
-        Give those of all bodies that float, or of none: then they are found.
-        """
-        number = self._number(body)
-        modes = _arrays.columns("rigid_modes", rigid_modes, (self._degrees[number], None))
-        self._call("fuge_bodies_set_rigid_modes", number, modes.shape[1], modes)
+        added = body if isinstance(body, Body) else Body(body)
+        with added._handle.use() as pointer:
+            self._call("fuge_bodies_add", pointer, None)
+        self._handle.need(added._handle)
+        self._bodies.append(added)
+        return added
 
     def add_pair(
         self,
-        contact_body: int | None,
+        contact_body: Body | None,
         contact: Surface,
-        opposite_body: int | None,
+        opposite_body: Body | None,
         opposite: Surface,
         *,
         method: PairMethod = "mortar",
@@ -198,21 +168,19 @@ class ElasticBodies(Owner):
 
         Parameters
         ----------
-        contact_body, opposite_body : int or None
+        contact_body, opposite_body : Body or None
             Both may be the same; None: the surface is rigid and held in space.
         contact, opposite, method, normals, normal, reach, play, tied, smooth, crease, revolution
             As in :meth:`ContactPairs.find`.
         """
         options = pair_options(contact, method, normals, normal, reach, play, tied, smooth)
-        arguments = surface_arguments("contact", contact)
-        self._call("fuge_bodies_set_contact", self._owner(contact_body), *arguments)
-        self._call("fuge_bodies_set_opposite", self._owner(opposite_body), *surface_arguments("opposite", opposite))
-        self._call("fuge_bodies_set_geometry", _arrays.number("crease", crease), int(bool(revolution)))
-        self._call("fuge_bodies_add_pair", *options)
-        self._dimensions = int(arguments[0])
-        for body, surface in ((contact_body, contact), (opposite_body, opposite)):
-            if body is not None and surface.dof is not None:
-                self._surfaces.append((body, surface))
+        numbers = self._number(contact_body), self._number(opposite_body)
+        self._pairs._set(contact, opposite, crease, revolution)
+        with self._pairs._handle.use() as pairs:
+            self._call("fuge_bodies_add_pair", *numbers, pairs, *options)
+        for number, surface in zip(numbers, (contact, opposite)):
+            if number >= 0 and surface.dof is not None:
+                self._surfaces.append((number, surface))
 
     def solve(
         self,
@@ -247,21 +215,23 @@ class ElasticBodies(Owner):
         by_cholmod = has_sparse() if sparse is None else sparse
         if by_cholmod:
             require_sparse()
-        self._call("fuge_bodies_solve_sparse" if by_cholmod else "fuge_bodies_solve", ctypes.byref(options))
+        name = "fuge_bodies_solve_sparse" if by_cholmod else "fuge_bodies_solve"
+        with self._in_use() as pairs:
+            self._call(name, ctypes.byref(options), pairs)
         return self._contact()
 
     def join(self) -> JoinedBodies:
         """Join the bodies into one, for further loads on the same factor, or to exclude points."""
-        self._call("fuge_bodies_join")
-        degrees, entries, n, width = self._counts("fuge_bodies_get_joined_sizes")
-        column, row = np.empty(degrees + 1, dtype=np.intc), np.empty(entries, dtype=np.intc)
-        value, first = np.empty(entries), np.empty(len(self._degrees) + 1, dtype=np.intc)
-        dof, normal = np.empty((n, width), dtype=np.intc), np.empty((n, width))
-        gap, gap_upper, area = np.empty(n), np.empty(n), np.empty(n)
+        degrees, entries = (np.empty(1, dtype=np.intc) for _ in range(2))
+        with self._in_use() as pairs:
+            self._call("fuge_bodies_join", pairs, degrees, entries)
+        shape = int(degrees[0]), int(degrees[0])
+        column, row = np.empty(shape[0] + 1, dtype=np.intc), np.empty(entries[0], dtype=np.intc)
+        value, first = np.empty(entries[0]), np.empty(len(self._bodies) + 1, dtype=np.intc)
         self._call("fuge_bodies_get_matrix", column, row, value, first)
-        self._call("fuge_bodies_get_contact", dof, normal, gap, gap_upper, area)
-        stiffness = CompressedColumns((degrees, degrees), column, row, value)
-        return JoinedBodies(stiffness, first, dof, normal, gap, gap_upper, area)
+        stiffness, points = CompressedColumns(shape, column, row, value), self._pairs
+        points._collect()
+        return JoinedBodies(stiffness, first, points.dof, points.normal, points.gap, points.gap_upper, points.area)
 
     @property
     def info(self) -> Info:
@@ -273,57 +243,49 @@ class ElasticBodies(Owner):
     def _contact(self) -> BodiesContact:
         with self._handle.use() as pointer:
             message = self._read_message(pointer)
-        n, lonely, _ = self._counts("fuge_bodies_get_sizes")
-        force, pressure, gap, area, initial_gap = (np.empty(n) for _ in range(5))
-        pair, node, face = (np.empty(n, dtype=np.intc) for _ in range(3))
-        place, direction = np.empty((n, max(self._dimensions - 1, 0))), np.empty((n, self._dimensions))
-        unpaired = [np.empty(lonely, dtype=np.intc) for _ in range(2)]
+        self._pairs._collect()
+        points = self._pairs
+        force, pressure, gap = (np.empty(points.gap.size) for _ in range(3))
         self._call("fuge_bodies_get_forces", force, pressure, gap)
-        self._call("fuge_bodies_get_points", pair, node, face, place, direction)
-        self._call("fuge_bodies_get_areas", area, initial_gap)
-        self._call("fuge_bodies_get_unpaired", *unpaired)
-        displacement = [np.empty(degrees) for degrees in self._degrees]
-        for body, result in enumerate(displacement):
-            self._call("fuge_bodies_get_displacement", body, result)
-        return BodiesContact(
-            force,
-            pressure,
-            gap,
-            initial_gap,
-            area,
-            pair,
-            node,
-            face,
-            place,
-            direction,
-            np.column_stack(unpaired),
-            displacement,
-            self._reactions(displacement, force),
-            self.info,
-            message,
-        )
+        displacement = [np.empty(body.degrees) for body in self._bodies]
+        for number, result in enumerate(displacement):
+            self._call("fuge_bodies_get_displacement", number, result)
+        found = (points.gap, points.area, points.pair, points.node, points.face, points.place, points.direction)
+        unpaired, reaction = points.unpaired, self._reactions(displacement, force)
+        return BodiesContact(force, pressure, gap, *found, unpaired, displacement, reaction, self.info, message)
 
     def _reactions(
         self, displacement: list[NDArray[np.float64]], force: NDArray[np.float64]
     ) -> list[NDArray[np.float64]]:
         """Forces of the supports of each body: what its stiffness, its load and the contact forces leave."""
-        given = zip(self._matrices, self._fixed, self._loads, displacement)
-        found = [symmetric(matrix)[fixed] @ u - load[fixed] for matrix, fixed, load, u in given]
-        if any(np.isin(self._fixed[body], np.asarray(surface.dof)).any() for body, surface in self._surfaces):
+        found = [
+            symmetric(body._matrix)[body._fixed] @ u - body._loads()[body._fixed]
+            for body, u in zip(self._bodies, displacement)
+        ]
+        if any(np.isin(self._bodies[k]._fixed, np.asarray(surface.dof)).any() for k, surface in self._surfaces):
             with warnings.catch_warnings():
                 # The solve has given them.
                 warnings.simplefilter("ignore")
                 joined = self.join()
             pressing = opening_rows(joined.dof, joined.normal, int(joined.first[-1])).T @ force
-            for reaction, fixed, first in zip(found, self._fixed, joined.first):
-                reaction -= pressing[first + fixed]
+            for reaction, body, first in zip(found, self._bodies, joined.first):
+                reaction -= pressing[first + body._fixed]
         return found
 
-    def _number(self, body: int) -> int:
-        number = _arrays.integer("body", body)
-        if not 0 <= number < len(self._degrees):
-            raise error(Status.ERR_SIZE, f"there is no body {number}: {len(self._degrees)} have been added")
-        return number
+    @contextmanager
+    def _in_use(self) -> Iterator[ctypes.c_void_p]:
+        """The address of the pairs, while no other thread changes a body."""
+        handles = {body._handle for body in self._bodies}
+        with ExitStack() as stack:
+            for handle in sorted(handles, key=id):
+                stack.enter_context(handle._alone())
+            yield stack.enter_context(self._pairs._handle.use())
 
-    def _owner(self, body: int | None) -> int:
-        return -1 if body is None else self._number(body)
+    def _number(self, body: Body | None) -> int:
+        """The number of a body, -1 for none."""
+        if body is None:
+            return -1
+        numbers = [k for k, added in enumerate(self._bodies) if added is body]
+        if not numbers:
+            raise error(Status.ERR_SIZE, f"{body!r} is not one of the {len(self._bodies)} bodies that have been added")
+        return numbers[0]

@@ -14,7 +14,7 @@ from fuge._calls import Owner, call, new_handle
 from fuge._library import function, has_sparse
 from fuge._messages import in_python
 from fuge.cases import Cases, checked_names
-from fuge.columns import compressed, is_sparse, require_sparse, stacked
+from fuge.columns import compressed, is_sparse, stacked
 from fuge.dof_names import DofNames
 from fuge.errors import Status, error, finish
 from fuge.links import Links
@@ -58,15 +58,14 @@ class Body(Owner):
     Parameters
     ----------
     stiffness : array_like of shape (degrees, degrees), scipy.sparse matrix, CompressedColumns or StiffnessFile
-        Both triangles; of a sparse matrix one of them will do. Its arrays are not copied if they have the right types:
-        leave them unchanged. With a StiffnessFile messages name degrees of freedom by node and direction.
+        Both triangles; of a sparse matrix one of them will do, and it is factorised by CHOLMOD, or as a band if the
+        library was built without. Its arrays are not copied if they have the right types: leave them unchanged. With
+        a StiffnessFile messages name degrees of freedom by node and direction.
 
     Raises
     ------
     InputError
         The shape is not square.
-    UnsupportedError
-        A sparse matrix, and the library was built without CHOLMOD.
 
     Examples
     --------
@@ -89,8 +88,8 @@ class Body(Owner):
         matrix = compressed("stiffness", stiffness)
         if matrix.shape[0] != matrix.shape[1]:
             raise error(Status.ERR_SIZE, f"stiffness has the shape {matrix.shape}, but must be square")
-        require_sparse()
-        self._create("fuge_body_sparse", matrix, matrix.shape[0], matrix.column, matrix.row, matrix.value)
+        create = "fuge_body_sparse" if has_sparse() else "fuge_body_columns"
+        self._create(create, matrix, matrix.shape[0], matrix.column, matrix.row, matrix.value)
 
     @classmethod
     def from_band(cls, ab: ArrayLike, *, upper: bool = False) -> Body:
@@ -276,9 +275,7 @@ class Body(Owner):
         """
         u = _arrays.doubles("displacement", displacement, (self.degrees,), (None, self.degrees))
         f = _arrays.doubles("force", force, (*u.shape[:-1], self._n))
-        p = np.zeros(self.degrees) if self._load is None else self._load
-        if load is not None:
-            p = _arrays.doubles("load", load, u.shape, (self.degrees,))
+        p = self._loads() if load is None else _arrays.doubles("load", load, u.shape, (self.degrees,))
         self._check_dof("fixed", self._fixed, 0)
         held, contact = symmetric(self._matrix)[self._fixed], self._openings()[:, self._fixed]
         return np.asarray((held @ u.T).T - (contact.T @ f.T).T - p[..., self._fixed])
@@ -354,7 +351,7 @@ class Body(Owner):
             There are no links, or the body has not been condensed, or has changed since.
         """
         if load is not None:
-            before = np.zeros(self.degrees) if self._load is None else self._load
+            before = self._loads()
             self.set_load(load)
             try:
                 return self.mechanism()
@@ -398,7 +395,7 @@ class Body(Owner):
             raise error(Status.ERR_SIZE, "there is no node: position and dof are empty")
         self._check_dof("dof", degrees)
         stiffness = symmetric(self._matrix)
-        with Body(stiffness if has_sparse() or stiffness is self._matrix else stiffness.toarray()) as probe:
+        with Body(stiffness) as probe:
             probe.fix(self._fixed)
             modes = modes_of(probe)
         free = modes @ null_space(self._openings() @ modes, np.abs(self._normal).max(initial=0.0))
@@ -417,6 +414,9 @@ class Body(Owner):
             links._call("fuge_links_pose", body, solver)
         self._solver._take_links(links.gap, links._play())
         return self._solver, links
+
+    def _loads(self) -> NDArray[np.float64]:
+        return np.zeros(self.degrees) if self._load is None else self._load
 
     def _mode_count(self) -> int:
         return self._counts("fuge_body_get_mode_count")[0]

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fuge.errors import Status, error
-
-if TYPE_CHECKING:
-    from fuge.layers import Layers
+from fuge.layers import Layers
 
 
 @dataclass(frozen=True)

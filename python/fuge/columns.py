@@ -48,8 +48,8 @@ def require_sparse() -> None:
     if not has_sparse():
         raise error(
             Status.ERR_UNSUPPORTED,
-            "this copy of fuge was built without CHOLMOD (Debian: libsuitesparse-dev), so it has no sparse matrices: "
-            "pass a dense matrix or a band",
+            "this copy of fuge was built without CHOLMOD (Debian: libsuitesparse-dev), so it factorises sparse "
+            "matrices as bands: pass sparse=False",
         )
 
 

@@ -287,22 +287,6 @@ class Mesh:
         return np.compress(dof >= 0, dof)
 
 
-def read_mesh(path: PathLike) -> Mesh:
-    """Read an input file of Abaqus or CalculiX: nodes, elements, sets and surfaces; other keywords are skipped.
-
-    Raises
-    ------
-    FileError
-        The message has the file, the line and the reason; also for what is no keyword, and for keywords such as *PART
-        and *NGEN, without which the mesh would be another one.
-    """
-    from fuge.formats.keyword import read_blocks
-    from fuge.formats.mesh_input import mesh_of
-
-    paths: list[str] = []
-    return mesh_of(read_blocks(path, paths), path, paths)
-
-
 def join_meshes(meshes: Sequence[Mesh]) -> Mesh:
     """Join meshes, such as those of several bodies: nodes and elements, one mesh after the other.
 

@@ -164,22 +164,26 @@ class ContactPairs(Owner):
             A node is a contact point of two pairs.
         """
         options = pair_options(contact, method, normals, normal, reach, play, tied, smooth)
-        contact_arguments = surface_arguments("contact", contact)
-        self._call("fuge_pairs_set_contact", *contact_arguments)
-        self._call("fuge_pairs_set_opposite", *surface_arguments("opposite", opposite))
-        self._call("fuge_pairs_set_geometry", _arrays.number("crease", crease), int(bool(revolution)))
-        dimensions = int(contact_arguments[0])
+        self._set(contact, opposite, crease, revolution)
         try:
             self._call("fuge_pairs_find", *options)
         except Warning:
             # The caller has made an exception of it, but the pairs are there.
-            self._collect(dimensions)
+            self._collect()
             raise
-        self._collect(dimensions)
+        self._collect()
 
-    def _collect(self, dimensions: int) -> None:
+    def _set(self, contact: Surface, opposite: Surface, crease: float, revolution: bool) -> None:
+        """Set the surfaces of the next pair."""
+        arguments = surface_arguments("contact", contact)
+        self._call("fuge_pairs_set_contact", *arguments)
+        self._call("fuge_pairs_set_opposite", *surface_arguments("opposite", opposite))
+        self._call("fuge_pairs_set_geometry", _arrays.number("crease", crease), int(bool(revolution)))
+        self._dimensions = int(arguments[0])
+
+    def _collect(self) -> None:
         n, width, unpaired = self._counts("fuge_pairs_get_sizes")
-        lonely = self._keep(n, width, unpaired, dimensions)
+        lonely = self._keep(n, width, unpaired, self._dimensions)
         self._call("fuge_pairs_get_contact", self.dof, self.normal)
         self._call("fuge_pairs_get_gaps", self.gap, self.gap_upper, self.area)
         self._call("fuge_pairs_get_points", self.pair, self.node, self.face, self.place, self.direction)

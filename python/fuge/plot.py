@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
-from fuge._cuts import Cut, cut_through, ends
+from fuge._cuts import Cut, cut_through
 from fuge.contact import Contact
 from fuge.errors import Status, error
 from fuge.field import Field
@@ -225,11 +225,11 @@ def line(
 def _smooth_line(
     contact: SmoothContact | RoundContact, x: ArrayLike | None, unit: str | None, pressure_unit: str | None, ax: Axes
 ) -> Axes:
-    left, right = ends(contact)
+    left, right = contact.left, contact.right
     beside = 0.2 * (right - left)
     # An even number: the tip of a cone, where the pressure has no limit, is left out.
     places = np.linspace(left - beside, right + beside, 1000) if x is None else _arrays.vector("x", x)
-    pressure = contact.pressure(np.abs(places) if isinstance(contact, RoundContact) else places)
+    pressure = contact.pressure(places)
     axes = _new_axes(ax)
     axes.plot(places, pressure, color=BLUE)
     label = _label("pressure", pressure_unit)

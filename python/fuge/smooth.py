@@ -17,38 +17,35 @@ from fuge.halfplane import PLANE_STATES, PlaneState
 Profile = Callable[[NDArray[np.float64]], "tuple[ArrayLike, ArrayLike]"]
 
 
-class SmoothContact(Owner):
-    """Contact of a half-plane with a smooth punch; made by :func:`solve_smooth_punch`.
-
-    The pressure is sqrt(1 - t^2) times the sum of coefficients[k] U_k(t), x = middle + half_width t, with the
-    Chebyshev polynomials U_k of the second kind. Threads may share it.
+class PunchContact(Owner):
+    """Contact of a body with a punch, without a grid; threads may share it.
 
     Attributes
     ----------
     left, right : float
-        Ends of the contact; length.
+        Ends of the contact along x; length.
     half_width : float
         More accurate than (right - left)/2 far from x = 0; length.
     force, moment : float
-        The moment is that about x = 0; per depth.
+        The moment is that about x = 0; per depth, or on the whole disc.
     approach, tilt : float
         The punch moves by approach + tilt x.
     residual : float
         The certificate: largest scaled violation of the problem.
     end_error, pressure_error : float
-        Estimated errors of the ends, relative to the half width, and of the pressure, relative to its maximum.
+        Estimated errors of the ends, relative to the half width, and of the pressure, relative to its maximum, under a
+        round punch to its mean.
     iterations : int
         Series formed.
     coefficients : ndarray
-        Of the pressure; force per length^2.
+        Of the series.
     """
 
-    def __init__(self, profile: Any, limits: list[float], e_star: float, force: float, moment: Any) -> None:
-        arguments = [profile, None, *limits, e_star, force, moment]
+    def __init__(self, solve: str, *arguments: Any) -> None:
         with interruptible():
-            self._handle = new_handle("smooth contact", "fuge_solve_smooth_punch", "fuge_smooth_free", *arguments)
-        report = struct("fuge_smooth_report")
-        call("fuge_smooth_get_report", self._handle.pointer, ctypes.byref(report))
+            self._handle = new_handle("contact", solve, "fuge_punch_free", *arguments)
+        report = struct("fuge_punch_report")
+        call("fuge_punch_get_report", self._handle.pointer, ctypes.byref(report))
         self.left: float = report.left
         self.right: float = report.right
         self.half_width: float = report.half_width
@@ -61,28 +58,37 @@ class SmoothContact(Owner):
         self.pressure_error: float = report.pressure_error
         self.iterations: int = report.iterations
         self.coefficients = np.empty(report.coefficients)
-        pointer = self._handle.pointer
-        call("fuge_smooth_get_coefficients", pointer, self.coefficients.size, self.coefficients)
+        call("fuge_punch_get_coefficients", self._handle.pointer, self.coefficients.size, self.coefficients)
 
     def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Pressure at places x of any shape; 0 outside the contact."""
+        """Pressure at places x of any shape; 0 outside the contact, the largest number in the tip of a cone."""
         places = _arrays.doubles("x", x)
         pressure = np.empty(places.shape)
-        call("fuge_smooth_get_pressure", self._handle.pointer, places.size, places, pressure)
+        call("fuge_punch_get_pressure", self._handle.pointer, places.size, places, pressure)
         return pressure
 
     def gap(self, x: ArrayLike, initial_gap: ArrayLike) -> NDArray[np.float64]:
         """Gap under load at places x, from the initial gaps there; length."""
         shape, (places, initial) = _arrays.points(("x", x), ("initial_gap", initial_gap))
         gap = np.empty(shape)
-        call("fuge_smooth_get_gap", self._handle.pointer, places.size, places, initial, gap)
+        call("fuge_punch_get_gap", self._handle.pointer, places.size, places, initial, gap)
         return gap
+
+    def _field(self, young: float | None, poisson: float, plane_state: int, symmetric: bool) -> Field:
+        create = ["fuge_field_punch", self._handle.pointer, *moduli(young, poisson), plane_state]
+        return Field._of_punch(create, young, 0.0 if symmetric else self.left, self.right, symmetric)
+
+
+class SmoothContact(PunchContact):
+    """Contact of a half-plane with a smooth punch; made by :func:`solve_smooth_punch`.
+
+    The pressure is sqrt(1 - t^2) times the sum of coefficients[k] U_k(t), x = middle + half_width t, with the
+    Chebyshev polynomials U_k of the second kind. The attributes are those of :class:`PunchContact`.
+    """
 
     def field(self, *, young: float | None = None, poisson: float, plane_state: PlaneState = "strain") -> Field:
         """Stresses and displacements in the body below, to rounding; parameters as of :meth:`Contact.field`."""
-        arguments = [*moduli(young, poisson), PLANE_STATES.number(plane_state)]
-        create = ["fuge_field_smooth", self._handle.pointer, *arguments]
-        return Field._of_punch(create, young, self.left, self.right, False)
+        return self._field(young, poisson, PLANE_STATES.number(plane_state), False)
 
 
 def solve_smooth_punch(
@@ -125,70 +131,39 @@ def solve_smooth_punch(
     """
     limits = [_arrays.number("lower", lower), _arrays.number("upper", upper)]
     return SmoothContact(
+        "fuge_solve_smooth_punch",
         profile_callback(profile),
-        limits,
+        None,
+        *limits,
         _arrays.number("e_star", e_star),
         _arrays.number("force", force),
         _arrays.optional_number("moment", moment),
     )
 
 
-class RoundContact(Owner):
+class RoundContact(PunchContact):
     """Contact of a half-space with a punch of revolution; made by :func:`solve_round_punch` and its like.
 
-    Threads may share it.
-
-    Attributes
-    ----------
-    radius : float
-        Radius of the contact; length.
-    load : float
-        Force.
-    approach : float
-        By how much distant points of the bodies approach each other; length.
-    residual : float
-        The certificate: largest scaled violation of the problem.
-    radius_error, pressure_error : float
-        Estimated errors of the radius, relative to it, and of the pressure, relative to its mean.
-    iterations, coefficients : int
-        Series formed, and coefficients of the series.
+    It reaches from -radius to radius, and its places x are distances from the axis. The attributes are those of
+    :class:`PunchContact`; the approach is absolute.
     """
 
-    def __init__(self, solve: str, *arguments: Any) -> None:
-        with interruptible():
-            self._handle = new_handle("round contact", solve, "fuge_round_free", *arguments)
-        report = struct("fuge_round_report")
-        call("fuge_round_get_report", self._handle.pointer, ctypes.byref(report))
-        self.radius: float = report.radius
-        self.load: float = report.load
-        self.approach: float = report.approach
-        self.residual: float = report.residual
-        self.radius_error: float = report.radius_error
-        self.pressure_error: float = report.pressure_error
-        self.iterations: int = report.iterations
-        self.coefficients: int = report.coefficients
+    @property
+    def radius(self) -> float:
+        """Radius of the contact; length."""
+        return self.half_width
 
-    def pressure(self, r: ArrayLike) -> NDArray[np.float64]:
-        """Pressure at distances r from the axis; 0 outside the contact, the largest number in the tip of a cone."""
-        places = _arrays.doubles("r", r)
-        pressure = np.empty(places.shape)
-        call("fuge_round_get_pressure", self._handle.pointer, places.size, places, pressure)
-        return pressure
-
-    def gap(self, r: ArrayLike, initial_gap: ArrayLike) -> NDArray[np.float64]:
-        """Gap under load at distances r, from the initial gaps there; length."""
-        shape, (places, initial) = _arrays.points(("r", r), ("initial_gap", initial_gap))
-        gap = np.empty(shape)
-        call("fuge_round_get_gap", self._handle.pointer, places.size, places, initial, gap)
-        return gap
+    @property
+    def load(self) -> float:
+        """Force."""
+        return self.force
 
     def field(self, *, young: float | None = None, poisson: float) -> Field:
         """Stresses and displacements in the body below, to rounding; parameters as of :meth:`Contact.field`.
 
         In the tip of a cone zz is minus the largest number.
         """
-        create = ["fuge_field_round", self._handle.pointer, *moduli(young, poisson)]
-        return Field._of_punch(create, young, 0.0, self.radius, True)
+        return self._field(young, poisson, 0, True)
 
 
 def _pressed(load: float | None, approach: float | None, radius: float | None) -> list[Any]:

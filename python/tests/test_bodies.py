@@ -5,6 +5,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from scipy.sparse import csc_matrix
 
 import fuge
 from fuge._library import has_sparse
@@ -52,11 +53,12 @@ class Patch(unittest.TestCase):
 
     def bodies(self, lower, upper):
         bodies = fuge.ElasticBodies()
-        self.assertEqual([bodies.add(lower), bodies.add(upper)], [0, 1])
-        bodies.fix(0, [1, 3, 5, 0])
-        bodies.set_load(1, self.upper.load)
-        bodies.add_pair(1, self.upper.bottom, 0, self.lower.top)
-        return bodies
+        below, above = bodies.add(lower), fuge.Body(upper)
+        self.assertIs(bodies.add(above), above)
+        below.fix([1, 3, 5, 0])
+        above.set_load(self.upper.load)
+        bodies.add_pair(above, self.upper.bottom, below, self.lower.top)
+        return bodies, below, above
 
     def check(self, contact):
         np.testing.assert_allclose(contact.pressure, np.full(4, PRESSURE), rtol=1e-10)
@@ -72,12 +74,12 @@ class Patch(unittest.TestCase):
 
     def test_solve(self):
         for sparse in (False, True) if has_sparse() else (False,):
-            bodies = self.bodies(self.lower.stiffness, self.upper.stiffness)
+            bodies, _, _ = self.bodies(self.lower.stiffness, self.upper.stiffness)
             self.check(bodies.solve(sparse=sparse))
             self.assertEqual(bodies.info.status, fuge.Status.DONE)
 
     def test_join(self):
-        joined = self.bodies(self.lower.stiffness, self.upper.stiffness).join()
+        joined = self.bodies(self.lower.stiffness, self.upper.stiffness)[0].join()
         np.testing.assert_array_equal(joined.first, [0, 12, 28])
         whole = np.zeros(joined.stiffness.shape)
         column = np.repeat(np.arange(28), np.diff(joined.stiffness.column))
@@ -97,24 +99,24 @@ class Patch(unittest.TestCase):
 
     def test_rigid_opposite(self):
         bodies = fuge.ElasticBodies()
-        bodies.add(self.upper.stiffness)
-        bodies.set_load(0, self.upper.load)
+        block = bodies.add(self.upper.stiffness)
+        block.set_load(self.upper.load)
         ground = fuge.Surface([[-1.0, 1.0], [2.0, 1.0]], [[1, 0]])
-        bodies.add_pair(0, self.upper.bottom, None, ground)
+        bodies.add_pair(block, self.upper.bottom, None, ground)
         np.testing.assert_allclose(bodies.solve(sparse=False).pressure, np.full(4, PRESSURE), rtol=1e-10)
 
     def test_rigid_modes(self):
-        bodies = self.bodies(self.lower.stiffness, self.upper.stiffness)
-        bodies.set_rigid_modes(1, fuge.rigid_modes(self.upper.node))
+        bodies, _, above = self.bodies(self.lower.stiffness, self.upper.stiffness)
+        above.set_rigid_modes(fuge.rigid_modes(self.upper.node))
         self.check(bodies.solve(sparse=False))
 
     def test_reactions(self):
-        bodies = self.bodies(self.lower.stiffness, self.upper.stiffness)
+        bodies, _, above = self.bodies(self.lower.stiffness, self.upper.stiffness)
         contact = bodies.solve(sparse=False)
         np.testing.assert_allclose(contact.reaction[0], PRESSURE * np.array([0.25, 0.5, 0.25, 0]), atol=1e-12)
         self.assertEqual(contact.reaction[1].size, 0)
         # Nodes of the contact are held too: the supports have part of the contact forces.
-        bodies.fix(1, [0, 1, 3])
+        above.fix([0, 1, 3])
         contact = bodies.solve(sparse=False)
         pressed = contact.force.sum()
         np.testing.assert_allclose(contact.reaction[0][:3].sum(), pressed, rtol=1e-11)
@@ -123,32 +125,45 @@ class Patch(unittest.TestCase):
         self.assertRegex(repr(contact), "^<BodiesContact: 2 bodies, .* points in contact, residual")
 
     def test_errors(self):
-        bodies = self.bodies(self.lower.stiffness, self.upper.stiffness)
-        with self.assertRaises(fuge.InputError) as caught:
-            bodies.set_load(2, self.upper.load)
+        bodies, below, above = self.bodies(self.lower.stiffness, self.upper.stiffness)
+        with self.assertRaisesRegex(fuge.InputError, "is not one of the 2 bodies") as caught:
+            bodies.add_pair(fuge.Body(np.eye(28)), self.upper.bottom, below, self.lower.top)
         self.assertEqual(caught.exception.status, fuge.Status.ERR_SIZE)
-        self.assertRaises(fuge.InputError, bodies.set_load, 0, self.upper.load)
+        self.assertRaises(fuge.InputError, below.set_load, self.upper.load)
         self.assertRaises(fuge.InputError, bodies.add, self.lower.stiffness[:3])
         self.assertRaises(fuge.InputError, fuge.ElasticBodies().solve, sparse=False)
-        bodies.add_pair(1, self.upper.top, 0, self.lower.top)
+        bodies.add_pair(above, self.upper.top, below, self.lower.top)
         with self.assertRaises(fuge.InputError) as caught:
             bodies.solve(sparse=False)
         self.assertEqual(caught.exception.status, fuge.Status.ERR_MESH)
         self.assertIn("pair 1", caught.exception.message)
 
+    def test_kinds_of_matrices(self):
+        # A band and one triangle of a sparse matrix; loads count as they are at the time of the solve.
+        k = self.lower.stiffness
+        band = np.array([np.r_[np.diag(k, -i), np.zeros(i)] for i in range(len(k))])
+        bodies, _, above = self.bodies(k, csc_matrix(np.tril(self.upper.stiffness)))
+        self.check(bodies.solve(sparse=False))
+        bodies, _, above = self.bodies(fuge.Body.from_band(band), self.upper.stiffness)
+        self.check(bodies.solve(sparse=False))
+        above.set_load(2 * self.upper.load)
+        np.testing.assert_allclose(bodies.solve(sparse=False).pressure, np.full(4, 2 * PRESSURE), rtol=1e-10)
+
+    def test_closed_bodies_stay(self):
+        bodies, below, above = self.bodies(self.lower.stiffness, self.upper.stiffness)
+        below.close(), above.close()
+        self.check(bodies.solve(sparse=False))
+        self.assertRaises(fuge.CallOrderError, above.set_load, self.upper.load)
+
     def test_surfaces_that_look_inwards(self):
         def inwards(surface):
             return fuge.Surface(surface.node, np.asarray(surface.face)[:, ::-1], surface.dof)
 
-        def pressed(bodies):
-            bodies.add(self.lower.stiffness)
-            bodies.add(self.upper.stiffness)
-            bodies.fix(0, [1, 3, 5, 0])
-            bodies.set_load(1, self.upper.load)
-            return bodies
-
-        bodies = pressed(fuge.ElasticBodies())
-        bodies.add_pair(1, inwards(self.upper.bottom), 0, inwards(self.lower.top))
+        bodies = fuge.ElasticBodies()
+        below, above = bodies.add(self.lower.stiffness), bodies.add(self.upper.stiffness)
+        below.fix([1, 3, 5, 0])
+        above.set_load(self.upper.load)
+        bodies.add_pair(above, inwards(self.upper.bottom), below, inwards(self.lower.top))
         with self.assertRaises(fuge.InputError) as caught:
             bodies.solve(sparse=False)
         self.assertEqual(caught.exception.status, fuge.Status.ERR_MESH)
@@ -182,20 +197,21 @@ class MeshWithMatrix(unittest.TestCase):
     def test_blocks_in_files(self):
         # Two blocks 6 wide whose meshes do not match, under 12: the job of the program fuge in this folder.
         folder = Path(__file__).resolve().parents[2] / "examples" / "data" / "blocks"
-        bodies, surfaces = fuge.ElasticBodies(), []
+        bodies, both, surfaces = fuge.ElasticBodies(), [], []
         for name in ("lower", "upper"):
             mesh, stiffness = fuge.read_mesh(folder / f"{name}.inp"), fuge.read_stiffness(folder / f"{name}.sti")
             body = bodies.add(stiffness)
             held = [mesh.set_dof("left", 1, stiffness)]
             if name == "lower":
                 held.append(mesh.set_dof("bottom", 2, stiffness))
-            bodies.fix(body, np.concatenate(held))
+            body.fix(np.concatenate(held))
+            both.append(body)
             surfaces.append(mesh.surface("face", stiffness, 2))
         load = np.zeros(stiffness.shape[0])
         for node, force in ((13, 1.5), (50, 3.0), (87, 3.0), (23, 3.0), (60, 1.5)):
             load[(stiffness.node == node) & (stiffness.direction == 2)] = -force
-        bodies.set_load(1, load)
-        bodies.add_pair(1, surfaces[1], 0, surfaces[0])
+        body.set_load(load)
+        bodies.add_pair(both[1], surfaces[1], both[0], surfaces[0])
         contact = bodies.solve(sparse=False)
         self.assertAlmostEqual(contact.force.sum(), 12.0, delta=1e-9)
         np.testing.assert_allclose(contact.pressure, contact.pressure.mean(), rtol=1e-8)

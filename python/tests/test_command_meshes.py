@@ -142,16 +142,16 @@ class Solutions(MeshesCase):
         matrices = [fuge.read_stiffness(f"{name}.sti") for name in ("lower", "upper")]
         for options, words, lift in PAIRS:
             with self.subTest(options=options), fuge.ElasticBodies() as bodies:
-                for mesh, matrix, sets in zip((lower, upper), matrices, ("BOTTOM", "LEFT")):
-                    number = bodies.add(matrix)
+                below, above = (bodies.add(matrix) for matrix in matrices)
+                for body, mesh, matrix, sets in zip((below, above), (lower, upper), matrices, ("BOTTOM", "LEFT")):
                     held = [mesh.set_dof("LEFT", 1, matrix), mesh.set_dof(sets, 2, matrix)]
-                    bodies.fix(number, np.concatenate(held))
+                    body.fix(np.concatenate(held))
                 load = np.zeros(matrices[1].shape[0])
                 load[np.flatnonzero((matrices[1].node == 60) & (matrices[1].direction == 2))] = -3.0
-                bodies.set_load(1, load)
+                above.set_load(load)
                 own = upper.surface("FACE", matrices[1], 2)
                 lifted = fuge.Surface(own.node + [0.0, lift], own.face, own.dof)
-                bodies.add_pair(1, lifted, 0, lower.surface("FACE", matrices[0], 2), **words)
+                bodies.add_pair(above, lifted, below, lower.surface("FACE", matrices[0], 2), **words)
                 expected = bodies.solve()
                 table, _ = self.solve(f"{CORNER}{PAIR} {options}")
                 before, _ = self.solve(f"{options} {CORNER}{PAIR}")

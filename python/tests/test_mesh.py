@@ -266,9 +266,9 @@ class WithMatrix(Meshes):
         stiffness = self.matrix(np.repeat([1, 2, 3, 4], 3), np.tile([1, 2, 3], 4))
         for name, status in (("down", None), ("up", fuge.Status.ERR_MESH)):
             bodies = fuge.ElasticBodies()
-            bodies.add(stiffness), bodies.add(stiffness)
-            bodies.set_load(1, np.tile([0.0, 0.0, -0.5], 4))
-            bodies.add_pair(1, upper.surface(name, stiffness), 0, lower.surface("up", stiffness))
+            below, above = bodies.add(stiffness), bodies.add(stiffness)
+            above.set_load(np.tile([0.0, 0.0, -0.5], 4))
+            bodies.add_pair(above, upper.surface(name, stiffness), below, lower.surface("up", stiffness))
             if status is None:
                 contact = bodies.solve(sparse=False)
                 # Springs of 1: the gap 0.25 closes, and each plate carries half of what is left.

@@ -11,7 +11,6 @@ import numpy as np
 from scipy import sparse
 
 import fuge
-from fuge._library import has_sparse
 
 
 def beam():
@@ -63,10 +62,9 @@ class Reactions(unittest.TestCase):
             band[i, : 6 - i] = np.diag(k, -i)
         upper = np.array([np.r_[np.zeros(i), band[i, : 6 - i]] for i in (3, 2, 1, 0)])
         yield from (fuge.Body(k), fuge.Body.from_band(band), fuge.Body.from_band(upper, upper=True))
-        if has_sparse():
-            yield from (
-                fuge.Body(kind(part)) for part in (k, np.tril(k)) for kind in (sparse.csc_matrix, sparse.csr_matrix)
-            )
+        yield from (
+            fuge.Body(kind(part)) for part in (k, np.tril(k)) for kind in (sparse.csc_matrix, sparse.csr_matrix)
+        )
 
     def test_propped_cantilever(self):
         # Fixed at the left, a prop at the right that only presses, 16 downwards in the middle of the span of 2.
@@ -122,8 +120,6 @@ class Reactions(unittest.TestCase):
 class Names(unittest.TestCase):
     def test_messages(self):
         for named, dof in ((False, r"freedom \d+"), (True, r"freedom \d+ \(node 10\d, direction \d\)")):
-            if named and not has_sparse():
-                continue
             body = standing(CUBE, held=(0, 1, 4), links=(4,), named=named)
             body.condense()
             up = np.zeros((2, 24))

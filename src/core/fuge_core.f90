@@ -1,21 +1,13 @@
-!> The public interface of the component core: contact problems, their operators and solvers, and the half-plane.
+!> The public interface of the component core: contact problems, their operators and solvers.
 module fuge_core
   use fuge_adjoint_solution, only: fuge_solve_adjoint
   use fuge_case_envelope, only: fuge_envelope, fuge_find_envelope
   use fuge_cases_solution, only: fuge_solve_cases
-  use fuge_cell_grading, only: fuge_graded_cells, FUGE_END_CORNER, FUGE_END_EDGE, FUGE_END_PLAIN
   use fuge_certificate, only: fuge_residual, fuge_violation
   use fuge_contact_path, only: fuge_follow_path, fuge_load_path
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, &
     FUGE_OPEN
-  use fuge_edge_refinement, only: fuge_contact_edges, fuge_interval, FUGE_EDGE_REFINED, FUGE_EDGE_FEW_CELLS, &
-    FUGE_EDGE_SINGULAR, FUGE_EDGE_GRID_END, FUGE_EDGE_LIMITED
-  use fuge_elastic_moduli, only: fuge_plane_modulus, fuge_combined_modulus, fuge_displacement_shares, &
-    FUGE_PLANE_STRAIN, FUGE_PLANE_STRESS
   use fuge_gradients_type, only: fuge_gradients
-  use fuge_halfplane_fft, only: fuge_halfplane_operator
-  use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN, FUGE_HAT
-  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_history_type, only: fuge_history
   use fuge_kinds, only: fuge_dp
   use fuge_load_cases_type, only: fuge_case_solutions, fuge_load_cases

@@ -70,7 +70,7 @@ set(of_constant "FUGE_[A-Z0-9_]+ *= *-?[0-9]+")
 set(number_of_functions 0)
 set(number_of_constants 0)
 
-# The six are those that the facade has.
+# These are those that the facade has.
 include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/uses.cmake")
 fuge_read_uses("${SOURCES}/components.txt" uses_)
 set(components ${uses_facade})
@@ -82,13 +82,14 @@ foreach(component IN LISTS components)
     continue()
   endif()
   read_c(header "${INCLUDE_DIR}/${name}")
-  file(GLOB bindings "${SOURCES}/${component}/c/*.f90")
+  fuge_component_folder(folder "${SOURCES}" "${component}")
+  file(GLOB_RECURSE bindings "${SOURCES}/${folder}/fuge_c_*.f90")
   if(component STREQUAL "fe")
     # The library fuge_sparse has functions of bodies.
     file(GLOB sparse "${SOURCES}/sparse/fuge_c_*.f90")
     list(APPEND bindings ${sparse})
   endif()
-  file(GLOB_RECURSE modules "${SOURCES}/${component}/*.f90")
+  file(GLOB_RECURSE modules "${SOURCES}/${folder}/*.f90")
   read_sources(api ${bindings})
   read_sources(fortran ${modules})
 

@@ -40,13 +40,14 @@ expect_mismatch(fuge_mpi.h "int fuge_operator_rows(" "int fuge_operator_lines(" 
 # In the header of another component: a function and a constant that there are.
 expect_mismatch(fuge_files.h "int fuge_write_mesh(" "int fuge_field_largest(void);\nint fuge_write_mesh("
   "functions only in fuge_files.h: fuge_field_largest functions only")
-expect_mismatch(fuge_punch.h "typedef struct fuge_smooth fuge_smooth;" "enum { FUGE_CENTRE = 0 };"
-  "constants only in fuge_punch.h: FUGE_CENTRE = 0")
+expect_mismatch(fuge_punches.h "typedef struct fuge_punch fuge_punch;" "enum { FUGE_CENTRE = 0 };"
+  "constants only in fuge_punches.h: FUGE_CENTRE = 0")
 expect_mismatch(fuge.h "#endif" "int fuge_reset(fuge_solver *s);\n#endif" "fuge.h declares fuge_reset")
 
 # Headers include what their components may use, fuge.h all of them.
-expect_mismatch(fuge_punch.h "#include \"fuge_core.h\"" "#include \"fuge_fe.h\""
-  "fuge_punch.h includes fuge_fe.h: punch may not use it")
-expect_mismatch(fuge.h "#include \"fuge_punch.h\"" "" "fuge.h includes fuge_area.h;fuge_core.h;fuge_fe.h;fuge_files.h;fuge_layers.h;")
+expect_mismatch(fuge_punches.h "#include \"fuge_elastic.h\"" "#include \"fuge_fe.h\""
+  "fuge_punches.h includes fuge_fe.h: punches may not use it")
+expect_mismatch(fuge.h "#include \"fuge_punches.h\"" ""
+  "fuge.h includes fuge_core.h;fuge_elastic.h;fuge_fe.h;fuge_files.h;fuge_halfplane.h;fuge_halfspace.h;fuge_layers.h;fuge_rings.h")
 file(WRITE "${SCRATCH}/include/fuge_walls.h" "\n")
 expect_failure("no component has the header fuge_walls.h")

@@ -13,7 +13,7 @@ static void *const no_handle = &place;
 static fuge_operator *op;
 static fuge_solver *solver;
 static fuge_body *body;
-static fuge_smooth *smooth;
+static fuge_punch *smooth;
 
 static void reset_outputs(void) {
   fill(reals, MANY);
@@ -153,28 +153,28 @@ static int smooth_interval(char *message, size_t len) {
   return fuge_solve_smooth_punch(profile, NULL, 1.0, -1.0, 1.0, 1.0, NULL, &smooth, message, len);
 }
 
-static fuge_smooth *cylinder;
+static fuge_punch *cylinder;
 
-static int smooth_report(char *message, size_t len) { return fuge_smooth_get_report(cylinder, NULL, message, len); }
+static int smooth_report(char *message, size_t len) { return fuge_punch_get_report(cylinder, NULL, message, len); }
 
 static int smooth_pressure(char *message, size_t len) {
-  return fuge_smooth_get_pressure(cylinder, -1, X, reals, message, len);
+  return fuge_punch_get_pressure(cylinder, -1, X, reals, message, len);
 }
 
 static int smooth_pressure_hole(char *message, size_t len) {
-  return fuge_smooth_get_pressure(cylinder, 4, HOLE, reals, message, len);
+  return fuge_punch_get_pressure(cylinder, 4, HOLE, reals, message, len);
 }
 
 static int smooth_gap_hole(char *message, size_t len) {
-  return fuge_smooth_get_gap(cylinder, 2, X, HOLE, reals, message, len);
+  return fuge_punch_get_gap(cylinder, 2, X, HOLE, reals, message, len);
 }
 
 static int smooth_gap(char *message, size_t len) {
-  return fuge_smooth_get_gap(cylinder, 2, X, NULL, reals, message, len);
+  return fuge_punch_get_gap(cylinder, 2, X, NULL, reals, message, len);
 }
 
 static int smooth_coefficients(char *message, size_t len) {
-  return fuge_smooth_get_coefficients(cylinder, -3, reals, message, len);
+  return fuge_punch_get_coefficients(cylinder, -3, reals, message, len);
 }
 
 #ifdef HAVE_SPARSE
@@ -291,7 +291,7 @@ static void test_success_empties_the_message(void) {
   CHECK_MESSAGE(fuge_solve_smooth_punch(profile, NULL, -1.0, 1.0, 1.0, 0.1, NULL, &cylinder, message, sizeof message),
                 FUGE_DONE, message, "");
   strcpy(message, "old");
-  CHECK_MESSAGE(fuge_smooth_get_pressure(cylinder, 2, X, reals, message, sizeof message), FUGE_DONE, message, "");
+  CHECK_MESSAGE(fuge_punch_get_pressure(cylinder, 2, X, reals, message, sizeof message), FUGE_DONE, message, "");
 }
 
 /* ---- solvers and bodies keep theirs -------------------------------------- */
@@ -374,7 +374,7 @@ int main(void) {
   test_refusals();
   test_solver_keeps_its_message();
   test_body_keeps_its_message();
-  fuge_smooth_free(&cylinder);
+  fuge_punch_free(&cylinder);
   fuge_operator_free(&springs);
   fuge_operator_free(&dense);
   return check_summary();

@@ -108,8 +108,10 @@ function(check_names path names)
 endfunction()
 
 set(facade)
-foreach(component IN ITEMS core area layers punch stress fe files)
-  read_lines("${ROOT}/src/${component}/fuge_${component}.f90" lines)
+foreach(component IN ITEMS core elastic halfplane halfspace rings layers punches fe files)
+  file(GLOB found RELATIVE "${ROOT}" "${ROOT}/src/${component}/fuge_${component}.f90"
+    "${ROOT}/src/bodies/${component}/fuge_${component}.f90")
+  read_lines("${found}" lines)
   list(APPEND facade ${lines})
 endforeach()
 foreach(line IN LISTS facade)

@@ -20,11 +20,11 @@ function(expect_missing file declaration expected)
 endfunction()
 
 expect_missing(src/core/base/fuge_status.f90 ":: FUGE_ERR_MEMORY" "FUGE_ERR_MEMORY")
-expect_missing(src/core/model/fuge_problem_type.f90 "type, public :: fuge_solution" "fuge_solution")
-expect_missing(src/core/model/fuge_options_type.f90 ":: keep_history" "fuge_options%keep_history")
+expect_missing(src/core/problem/fuge_problem_type.f90 "type, public :: fuge_solution" "fuge_solution")
+expect_missing(src/core/problem/fuge_options_type.f90 ":: keep_history" "fuge_options%keep_history")
 expect_missing(src/core/base/fuge_status.f90 "function failed" "fuge_info%failed")
-expect_missing(src/core/model/fuge_monitor_type.f90 "subroutine report_progress" "fuge_monitor%progress")
-expect_missing(src/stress/field/fuge_field_type.f90 "procedure.find_peak., deferred :: find_largest"
+expect_missing(src/core/problem/fuge_monitor_type.f90 "subroutine report_progress" "fuge_monitor%progress")
+expect_missing(src/bodies/elastic/field/fuge_field_type.f90 "procedure.find_peak., deferred :: find_largest"
   "fuge_field%find_largest")
 expect_missing(src/sparse/fuge_sparse.f90 "type, extends.fuge_stiffness., public :: fuge_sparse_stiffness"
   "fuge_sparse_stiffness")

@@ -22,13 +22,13 @@ function(expect_error file old new expected)
   endif()
 endfunction()
 
-expect_error(src/core/base/fuge_status.f90 "'unknown element'" "'unknown cell'" "doc/errors.md lacks: . -6 ")
+expect_error(src/core/base/fuge_status.f90 "'unknown element'" "'unknown cell'" "doc/errors.md lacks: ### FUGE_ERR_ELEMENT .-6.")
 expect_error(src/core/base/fuge_status.f90 "'unknown element'" "'unknown cell'" "fuge.3 lacks: .BR FUGE_ERR_ELEMENT")
 expect_error(src/core/base/fuge_status.f90 "'unknown element'" "'unknown cell'"
   "fuge_core.h says of FUGE_ERR_ELEMENT = -6")
 expect_error(src/core/base/fuge_status.f90 "    'unknown element', &\n" "" "34 codes, 33 texts")
-expect_error(doc/errors.md "| -4 |" "| -5 |" "doc/errors.md lacks: . -4 . `FUGE_ERR_WIDTH`")
-expect_error(doc/errors.md "| 0 |" "| 6 | `FUGE_NEW` | new |\n| 0 |" "35 rows for 34 codes")
+expect_error(doc/errors.md "FUGE_ERR_WIDTH (-4)" "FUGE_ERR_WIDTH (-5)" "doc/errors.md lacks: ### FUGE_ERR_WIDTH .-4.")
+expect_error(doc/errors.md "### FUGE_DONE" "### FUGE_NEW (6)\n\n*new*\n\n### FUGE_DONE" "35 headings for 34 codes")
 expect_error(doc/man/fuge.3 "FUGE_ERR_WIDTH \" (\\-4)\"" "FUGE_ERR_WIDTH \" (\\-5)\"" "fuge.3 lacks: .BR FUGE_ERR_WIDTH")
 expect_error(doc/man/fuge.3 ".TP\n.BR FUGE_DONE" ".TP\n.BR FUGE_FINE \" (0)\"\ndone\n.TP\n.BR FUGE_DONE" "35 items for 34")
 expect_error(include/fuge_core.h "/* done, but the residual is above" "/* the residual is above"

@@ -2,9 +2,8 @@
 !> alone, and on grids by FFT.
 module corner_scenes
   use engine_scene_type, only: engine_scene
+  use fuge_cell_elements, only: FUGE_MEAN, FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_fft, only: fuge_halfplane_operator
-  use fuge_halfplane_influence, only: FUGE_MEAN
-  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_halfspace_grid, only: FUGE_PERIODIC_X
   use fuge_kinds, only: dp

@@ -5,7 +5,8 @@
 !> rounds: F is the exact answer of the data as stored, however ill-conditioned alpha is.
 module hard_scenes
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_MEAN
+  use fuge_cell_elements, only: FUGE_MEAN
+  use fuge_halfplane_influence, only: fuge_halfplane_matrix
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_status, only: fuge_info, FUGE_ERR_NOT_DEFINITE, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL

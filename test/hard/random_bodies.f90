@@ -2,9 +2,9 @@
 module random_bodies
   use, intrinsic :: iso_fortran_env, only: int64
   use engine_scene_type, only: engine_scene
+  use fuge_cell_elements, only: FUGE_CENTRE, FUGE_MEAN, FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_fft, only: fuge_halfplane_operator
-  use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_CENTRE, FUGE_MEAN
-  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
+  use fuge_halfplane_influence, only: fuge_halfplane_matrix
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_halfspace_grid, only: FUGE_PERIODIC_X, FUGE_PERIODIC_Y
   use fuge_halfspace_influence, only: fuge_halfspace_matrix

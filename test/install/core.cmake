@@ -21,13 +21,13 @@ run("some tests" "${CMAKE_COMMAND}" -E chdir "${SCRATCH}/build" ctest --output-o
 # The tests of the core are there, and no others.
 run("list of tests" "${CMAKE_COMMAND}" -E chdir "${SCRATCH}/build" ctest -N)
 string(REGEX MATCHALL "unit_[a-z_]+|api_[a-z_]+" tests "${output}")
-foreach(test IN ITEMS unit_core_model unit_core_engines_path unit_core_halfplane unit_topics api_dense api_solver)
+foreach(test IN ITEMS unit_core_problem unit_core_solver_path unit_core_products unit_topics api_dense api_solver)
   if(NOT test IN_LIST tests)
     message(SEND_ERROR "the core's test ${test} is left out:\n${output}")
   endif()
 endforeach()
 set(strange ${tests})
-list(FILTER strange INCLUDE REGEX "^unit_(area|punch|stress|fe|files)|^api_(halfspace|pairs|smooth|mesh)")
+list(FILTER strange INCLUDE REGEX "^unit_(bodies|fe|files)|^api_(halfplane|halfspace|pairs|smooth|mesh)")
 if(strange)
   message(SEND_ERROR "tests of other components: ${strange}")
 endif()
@@ -48,7 +48,7 @@ if(COMPILER_ID STREQUAL "GNU")
   endif()
 endif()
 file(READ "${prefix}/${DOCDIR}/doc/fortran.md" page)
-if(NOT page MATCHES "## core/solver" OR page MATCHES "## area/")
+if(NOT page MATCHES "## core/solver" OR page MATCHES "## bodies/")
   message(SEND_ERROR "fortran.md is not about the core alone")
 endif()
 
@@ -59,14 +59,14 @@ run("consumer: build" "${CMAKE_COMMAND}" --build "${SCRATCH}/consumer")
 expect_answer("Fortran and the core alone" "${SCRATCH}/consumer/consumer")
 expect_answer("C and the core alone" "${SCRATCH}/consumer/consumer_c")
 execute_process(COMMAND "${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/components" -B "${SCRATCH}/refused" ${settings}
-  "-DCMAKE_PREFIX_PATH=${prefix}" "-DCOMPONENTS=area" RESULT_VARIABLE status OUTPUT_VARIABLE output
+  "-DCMAKE_PREFIX_PATH=${prefix}" "-DCOMPONENTS=halfspace" RESULT_VARIABLE status OUTPUT_VARIABLE output
   ERROR_VARIABLE output)
 string(REGEX REPLACE "[ \n]+" " " output "${output}")
-if(status EQUAL 0 OR NOT output MATCHES "was built without area .FUGE_COMPONENTS.. Components of this copy: core, ")
-  message(SEND_ERROR "the component area is not refused: ${output}")
+if(status EQUAL 0 OR NOT output MATCHES "was built without halfspace .FUGE_COMPONENTS.. Components of this copy: core, ")
+  message(SEND_ERROR "the component halfspace is not refused: ${output}")
 endif()
 # Other subsets can be configured, with their tests.
-foreach(component IN ITEMS area punch stress fe files)
+foreach(component IN ITEMS halfplane halfspace layers punches fe files)
   run("configure ${component}" "${CMAKE_COMMAND}" -S "${SOURCE_DIR}" -B "${SCRATCH}/${component}" ${settings}
     -DFUGE_COMPONENTS=${component} -DFUGE_WITH_FFTW=${WITH_FFTW} -DFUGE_BUILD_TESTS=ON)
 endforeach()

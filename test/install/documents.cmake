@@ -59,8 +59,10 @@ endif()
 
 file(READ "${PREFIX}/${DOCDIR}/doc/fortran.md" page)
 set(facade "")
-foreach(component IN ITEMS core area punch stress fe files)
-  file(READ "${SOURCE_DIR}/src/${component}/fuge_${component}.f90" text)
+foreach(component IN ITEMS core elastic halfplane halfspace rings layers punches fe files)
+  file(GLOB found "${SOURCE_DIR}/src/${component}/fuge_${component}.f90"
+    "${SOURCE_DIR}/src/bodies/${component}/fuge_${component}.f90")
+  file(READ "${found}" text)
   string(APPEND facade "${text}")
 endforeach()
 string(REGEX REPLACE "&[ \t]*\n" " " facade "${facade}")

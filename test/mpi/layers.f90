@@ -1,9 +1,8 @@
 ! Layered bodies: the ranks find what one process finds, on lines and areas.
 program layers
   use, intrinsic :: ieee_arithmetic, only: ieee_positive_inf, ieee_value
+  use fuge_cell_elements, only: FUGE_CENTRE, FUGE_MEAN, FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_fft, only: fuge_halfplane_operator
-  use fuge_halfplane_influence, only: FUGE_CENTRE, FUGE_MEAN
-  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_halfspace_grid, only: FUGE_PERIODIC_X
   use fuge_kinds, only: dp

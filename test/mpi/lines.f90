@@ -1,8 +1,7 @@
 ! A half-plane whose cells the ranks of MPI_COMM_WORLD share has the products and the solutions of that of one process.
 program lines
+  use fuge_cell_elements, only: FUGE_CENTRE, FUGE_MEAN, FUGE_FREE, FUGE_PERIODIC
   use fuge_halfplane_fft, only: fuge_halfplane_operator
-  use fuge_halfplane_influence, only: FUGE_CENTRE, FUGE_MEAN
-  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_kinds, only: dp
   use fuge_mpi, only: fuge_mpi_halfplane_operator
   use fuge_problem_type, only: fuge_problem

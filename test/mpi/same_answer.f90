@@ -1,7 +1,7 @@
 ! The ranks of MPI_COMM_WORLD find the solution of one process without products in single precision: the same contact
 ! set, forces and counts, on areas nearly.
 program same_answer
-  use fuge_halfplane_line, only: FUGE_FREE, FUGE_PERIODIC
+  use fuge_cell_elements, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_kinds, only: dp
   use fuge_mpi, only: fuge_mpi_halfspace_operator

@@ -14,7 +14,7 @@ plant(test/unit/files/text/test_certificate.pf "!\n"
   "test/unit/files/text/test_certificate.pf is named for a module that does not exist in its folder\n")
 set(list test/unit/untested.txt)
 plant(${list} "fuge_certificate: old\n"
-  "untested.txt names fuge_certificate, which has test/unit/core/model/certificate/test_certificate.pf\n")
+  "untested.txt names fuge_certificate, which has test/unit/core/problem/certificate/test_certificate.pf\n")
 plant(${list} "fuge_gone: gone\n" "untested.txt names fuge_gone, which does not exist\n")
 plant(${list} "fuge_c_path: again\n" "untested.txt names fuge_c_path twice\n")
 plant(${list} "fuge_silent:\n" "untested.txt gives no reason for fuge_silent\n")

@@ -22,7 +22,8 @@ function(expect_version file pattern)
   set(offences ${offences} PARENT_SCOPE)
 endfunction()
 
-file(GLOB manifests RELATIVE "${ROOT}" "${ROOT}/fpm.toml" "${ROOT}/src/*/fpm.toml")
+file(GLOB manifests RELATIVE "${ROOT}" "${ROOT}/fpm.toml" "${ROOT}/src/*/fpm.toml"
+  "${ROOT}/src/bodies/*/fpm.toml")
 foreach(manifest IN LISTS manifests)
   expect_version("${manifest}" "^version = ")
 endforeach()

@@ -1,7 +1,8 @@
 !> Influence matrices that several tests share, the places of their points and the modes of a rigid body on them.
 module influence_matrices
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge_halfplane_influence, only: fuge_halfplane_matrix, mean_log, FUGE_MEAN
+  use fuge_cell_elements, only: FUGE_MEAN
+  use fuge_halfplane_influence, only: fuge_halfplane_matrix, mean_log
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info, FUGE_DONE

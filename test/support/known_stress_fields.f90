@@ -12,10 +12,10 @@ module known_stress_fields
   type, extends(stress_field), public :: cylinders
     real(dp) :: poisson = 0.3_dp
     real(dp), allocatable :: middle(:), half_width(:), pressure(:)
-    !> Places asked for so far.
-    integer :: places = 0
+    !> Places asked for so far, if they are counted.
+    integer, pointer :: places => null()
   contains
-    procedure :: stresses => cylinder_stresses
+    procedure :: find_stress => cylinder_stresses
   end type cylinders
 
   !> Spheres side by side on a half-space, far apart: each place is under the nearest one only.
@@ -23,36 +23,36 @@ module known_stress_fields
     real(dp) :: poisson = 0.3_dp
     real(dp), allocatable :: middle(:, :), radius(:), pressure(:)
   contains
-    procedure :: stresses => sphere_stresses
+    procedure :: find_stress => sphere_stresses
   end type spheres
 
   !> Principal stresses along the axes that are two hills: their Tresca stress is the higher one of both.
   type, extends(stress_field), public :: two_hills
     real(dp) :: top(2) = 1.0_dp, place(2, 2) = 0.0_dp, curvature(2) = 1.0_dp
   contains
-    procedure :: stresses => hill_stresses
+    procedure :: find_stress => hill_stresses
   end type two_hills
 
 contains
 
-  subroutine cylinder_stresses(self, place, stress, info)
-    class(cylinders), intent(inout) :: self
+  subroutine cylinder_stresses(self, place, below, values, info)
+    class(cylinders), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
-    real(dp), intent(out) :: stress(:, :)
-    type(fuge_info), intent(inout) :: info
+    logical, intent(in) :: below(:)
+    real(dp), intent(inout) :: values(:, :)
+    type(fuge_info), intent(out) :: info
     real(dp) :: plane(3)
     integer :: j, k
 
-    if (info%failed()) return
-    do k = 1, size(place, 2)
+    do k = 1, size(below)
       plane = 0.0_dp
       do j = 1, size(self%middle)
         plane = plane + self%pressure(j)*hertz_line((place(1, k) - self%middle(j))/self%half_width(j), &
                                                      place(3, k)/self%half_width(j))
       end do
-      stress(:, k) = [plane(1), self%poisson*(plane(1) + plane(2)), plane(2), 0.0_dp, plane(3), 0.0_dp]
+      values(:, k) = [plane(1), self%poisson*(plane(1) + plane(2)), plane(2), 0.0_dp, plane(3), 0.0_dp]
     end do
-    self%places = self%places + size(place, 2)
+    if (associated(self%places)) self%places = self%places + size(below)
   end subroutine cylinder_stresses
 
   !> xx, zz, xz under a cylinder over its largest pressure; x and z over its half width (E. McEwen 1949; K. L. Johnson,
@@ -79,16 +79,16 @@ contains
     stress(3) = -n*(m**2 - z**2)/(m**2 + n**2)
   end function hertz_line
 
-  subroutine sphere_stresses(self, place, stress, info)
-    class(spheres), intent(inout) :: self
+  subroutine sphere_stresses(self, place, below, values, info)
+    class(spheres), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
-    real(dp), intent(out) :: stress(:, :)
-    type(fuge_info), intent(inout) :: info
+    logical, intent(in) :: below(:)
+    real(dp), intent(inout) :: values(:, :)
+    type(fuge_info), intent(out) :: info
     real(dp) :: about(4), distance(size(self%radius)), r, c, s
     integer :: j, k
 
-    if (info%failed()) return
-    do k = 1, size(place, 2)
+    do k = 1, size(below)
       distance = hypot(place(1, k) - self%middle(1, :), place(2, k) - self%middle(2, :))
       j = minloc(distance, dim=1)
       r = distance(j)
@@ -99,7 +99,7 @@ contains
         s = (place(2, k) - self%middle(2, j))/r
       end if
       about = self%pressure(j)*hertz_sphere(r/self%radius(j), place(3, k)/self%radius(j), self%poisson)
-      stress(:, k) = [about(1)*c**2 + about(2)*s**2, about(1)*s**2 + about(2)*c**2, about(3), about(4)*s, &
+      values(:, k) = [about(1)*c**2 + about(2)*s**2, about(1)*s**2 + about(2)*c**2, about(3), about(4)*s, &
                       about(4)*c, (about(1) - about(2))*s*c]
     end do
   end subroutine sphere_stresses
@@ -123,17 +123,18 @@ contains
     stress(4) = -r*t**2/max(tiny(1.0_dp), u + t**2)*sqrt(u)/(1.0_dp + u)
   end function hertz_sphere
 
-  subroutine hill_stresses(self, place, stress, info)
-    class(two_hills), intent(inout) :: self
+  subroutine hill_stresses(self, place, below, values, info)
+    class(two_hills), intent(in) :: self
     real(dp), intent(in) :: place(:, :)
-    real(dp), intent(out) :: stress(:, :)
-    type(fuge_info), intent(inout) :: info
+    logical, intent(in) :: below(:)
+    real(dp), intent(inout) :: values(:, :)
+    type(fuge_info), intent(out) :: info
     integer :: j
 
-    if (info%failed()) return
-    stress = 0.0_dp
+    values = 0.0_dp
+    if (size(below) == 0) return
     do j = 1, 2
-      stress(j, :) = self%top(j)/(1.0_dp + self%curvature(j)*((place(1, :) - self%place(1, j))**2 &
+      values(j, :) = self%top(j)/(1.0_dp + self%curvature(j)*((place(1, :) - self%place(1, j))**2 &
                                                               + (place(3, :) - self%place(2, j))**2))
     end do
   end subroutine hill_stresses

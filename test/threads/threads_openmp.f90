@@ -2,9 +2,10 @@
 !> All answers must be those of the same loop run by one thread, bit for bit.
 program threads_openmp
   use, intrinsic :: iso_fortran_env, only: int64
+  use fuge_cell_elements, only: FUGE_MEAN
   use fuge_contact_path, only: fuge_follow_path, fuge_load_path
   use fuge_halfplane_fft, only: fuge_halfplane_operator
-  use fuge_halfplane_influence, only: fuge_halfplane_matrix, FUGE_MEAN
+  use fuge_halfplane_influence, only: fuge_halfplane_matrix
   use fuge_kinds, only: dp
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_operator_type, only: fuge_operator

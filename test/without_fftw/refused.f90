@@ -1,9 +1,8 @@
 !> A library without FFTW: what needs transforms refuses and says why, from Fortran and FORTRAN 77.
 program refused
+  use fuge_cell_elements, only: FUGE_MEAN, FUGE_FREE
   use fuge_halfplane_depths, only: fuge_halfplane_stress_grid
   use fuge_halfplane_fft, only: fuge_halfplane_operator
-  use fuge_halfplane_influence, only: FUGE_MEAN
-  use fuge_halfplane_line, only: FUGE_FREE
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info, FUGE_ERR_UNSUPPORTED

@@ -114,7 +114,7 @@ def _draw(path: str, outcome: Outcome) -> None:
 
 
 def _version_lines() -> list[str]:
-    stored = "sparse, by CHOLMOD (LGPL, in part GPL)" if fuge._library.has_sparse() else "dense, built without CHOLMOD"
+    stored = "sparse, by CHOLMOD (LGPL, in part GPL)" if fuge._library.has_sparse() else "bands, built without CHOLMOD"
     return [
         f"fuge {fuge.__version__}",
         "transforms: by FFTW (GPL, version 2 or later)",

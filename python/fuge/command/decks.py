@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 import fuge
 from fuge.command.checks import check_input
 from fuge.command.errors import UsageError
-from fuge.command.matrices import stored
 from fuge.command.options import Options
 from fuge.command.run import Log, Outcome, caught, outcome_comments
 from fuge.command.tables import Column, Table, short_text, write_lines
@@ -90,7 +89,7 @@ def _solve_cases(model: _Model, given: Options, log: Log) -> tuple[fuge.Cases, N
     given_supports = (deck.supports(k, stiffness) for k in range(len(names)))
     supports = [dict(zip(rows.tolist(), moved.tolist())) for rows, moved in given_supports]
     held = np.array(sorted(set().union(*supports)), dtype=np.intp)
-    body = fuge.Body(stored(stiffness))
+    body = fuge.Body(stiffness)
     body.find_rigid_modes()
     body.set_links(links)
     shape = len(names), links.count

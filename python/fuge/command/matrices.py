@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 import fuge
-from fuge._library import has_sparse
 from fuge.command.errors import CommandError, UsageError
 from fuge.command.options import Options
 from fuge.command.run import Log, Outcome, Report, caught
@@ -125,7 +124,7 @@ def _read_body(given: Options, log: Log) -> fuge.Body:
     stiffness = fuge.read_stiffness(given.file("stiffness"), names_path=given.file("rows") or None)
     degrees = stiffness.shape[0]
     log.say(f"stiffness matrix of {degrees} rows is read")
-    body = fuge.Body(stored(stiffness))
+    body = fuge.Body(stiffness)
     if given.has("floats"):
         body.find_rigid_modes()
     dof, normal = _contact(given.file("contact"), degrees)
@@ -135,11 +134,6 @@ def _read_body(given: Options, log: Log) -> fuge.Body:
     if given.has("external"):
         body.set_load(_vector(given.file("external"), degrees))
     return body
-
-
-def stored(stiffness: fuge.CompressedColumns) -> Any:
-    """A stiffness matrix as the library can take it: dense without its component for sparse ones."""
-    return stiffness if has_sparse() else stiffness.tocsc().toarray()
 
 
 def _contact(path: str, degrees: int) -> tuple[NDArray[np.intc], Array]:

@@ -15,9 +15,10 @@ from fuge.command.errors import CommandError, UsageError
 from fuge.command.options import Options, Setting
 from fuge.command.run import Log
 from fuge.errors import Error, Status
+from fuge.formats.mesh_input import read_mesh
 from fuge.formats.stiffness import read_stiffness
 from fuge.formats.text import quoted_path, whole
-from fuge.mesh import join_meshes, read_mesh
+from fuge.mesh import join_meshes
 
 AXES = ("x", "y", "z", "about x", "about y", "about z")
 # Names that a message lists.

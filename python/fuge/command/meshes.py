@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import block_diag
 
-from fuge._library import has_sparse
 from fuge.body import Body
 from fuge.command.errors import CommandError, UsageError
 from fuge.command.matrices import solve_contact
@@ -124,7 +123,7 @@ def _body(model: MeshModel, points: Points) -> Body:
     """All bodies as one, with supports, loads and contact points; motions that supports leave are found."""
     matrices = [body.stiffness.tocsc() for body in model.bodies if body.stiffness is not None]
     stiffness = block_diag(matrices, format="csc")
-    body = Body(stiffness if has_sparse() else stiffness.toarray())
+    body = Body(stiffness)
     held = np.flatnonzero(model.held)
     body.fix(held, model.displacement[held])
     body.set_load(model.load)

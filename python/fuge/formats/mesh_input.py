@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from fuge.element_faces import element_type
 from fuge.errors import FileError
-from fuge.formats.keyword import Block, complete, squeezed, unquoted
+from fuge.formats.keyword import Block, complete, read_blocks, squeezed, unquoted
 from fuge.formats.keyword_names import MESH_MAKERS
 from fuge.formats.mesh_lines import Labels, plain_labels, read_elements, read_nodes, read_rows
 from fuge.formats.text import PathLike, Reason, label, located, quoted, refusal
@@ -40,6 +40,19 @@ _SIDES = {"SNEG": 1, "SPOS": 2}
 
 # Members of a set are joined when so many are new, or as many as it has.
 _AT_ONCE = 100000
+
+
+def read_mesh(path: PathLike) -> Mesh:
+    """Read an input file of Abaqus or CalculiX: nodes, elements, sets and surfaces; other keywords are skipped.
+
+    Raises
+    ------
+    FileError
+        The message has the file, the line and the reason; also for what is no keyword, and for keywords such as
+        ``*PART`` and ``*NGEN``, without which the mesh would be another one.
+    """
+    paths: list[str] = []
+    return mesh_of(read_blocks(path, paths), path, paths)
 
 
 def mesh_of(blocks: Iterable[Block], path: PathLike, paths: Sequence[str] = ()) -> Mesh:

@@ -3,12 +3,13 @@ module fuge_certified_solution
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_certificate, only: find_violation, fuge_violation
   use fuge_kinds, only: dp
-  use fuge_number_text, only: text
+  use fuge_number_text, only: index_text, text
   use fuge_operator_type, only: fuge_operator
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_point_chunks, only: chunked_pass, CHUNK
   use fuge_point_space, only: point_space
   use fuge_rim_contact, only: remark_contact_at_rim
+  use fuge_settled_motions, only: softly_held
   use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_OVERFLOW, FUGE_WARN_RESIDUAL, FUGE_WARN_ILL_CONDITIONED
   implicit none
   private
@@ -38,6 +39,7 @@ contains
     type(fuge_info), intent(inout) :: info
     type(fuge_violation) :: violation
     type(point_space) :: space
+    integer :: motion
 
     call find_violation(operator, problem, solution, violation, info, enough=tolerance)
     if (info%failed()) return
@@ -55,6 +57,10 @@ contains
     else if (info%residual > tolerance) then
       call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' is above the tolerance ' &
                   //text(tolerance)//': the operator may be too badly conditioned for double precision')
+      motion = softly_held(problem, solution, space)
+      if (motion > 0) call report(info, FUGE_WARN_RESIDUAL, 'residual '//text(info%residual)//' is above the ' &
+        //'tolerance '//text(tolerance)//': the spring of motion '//index_text(motion)//' is too soft beside the ' &
+        //'points, whose gaps lose their digits; choose a stiffer spring or none, or FUGE_ITERATIVE for a matrix')
     else if (info%status == FUGE_DONE &
              .and. info%force_error > max(MOST_FORCE_ERROR, MOST_OF_TOLERANCE*tolerance)) then
       call report(info, FUGE_WARN_ILL_CONDITIONED, 'the forces may be wrong by '//text(info%force_error)//' of the ' &

@@ -48,6 +48,8 @@ module fuge_dense_engine
     type(spring_matrix), allocatable :: springs
     integer :: spring_points = 0
     logical :: with_springs = .false.
+    !> The matrix of this solve has springs of held motions on all its coefficients.
+    logical :: holds_motions = .false.
   contains
     procedure :: solve
     procedure :: was_misled
@@ -76,6 +78,7 @@ contains
 
     self%found_factor = .false.
     self%took_matrix = .false.
+    self%holds_motions = .false.
     select type (operator)
     class is (fuge_dense_operator)
       self%spring_points = 0
@@ -157,6 +160,7 @@ contains
     if (.not. info%failed()) call extend_problem(holding, extended, info)
     if (.not. info%failed()) then
       call springs%as_operator(with_springs)
+      self%holds_motions = holding%spring_count() < problem%spring_count()
       relay%listener => monitor
       relay%springs = holding%spring_count()
       call solve_with_matrix(self, with_springs, extended, options, relay, history, solution, info)
@@ -264,8 +268,8 @@ contains
       call find_given_motions(self%canonical, operator%alpha, problem, reduced, solution, info)
       if (info%failed()) return
     end if
-    call estimate_force_error(self%canonical, operator%alpha, self%factor, problem, solution%motion, reduced, &
-                              info%force_error, info)
+    call estimate_force_error(self%canonical, operator%alpha, self%factor, problem, solution%motion, &
+                              self%holds_motions, reduced, info%force_error, info)
     if (info%failed()) return
     call move_alloc(reduced%force, solution%force)
     call move_alloc(reduced%gap, solution%gap)

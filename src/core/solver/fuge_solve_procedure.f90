@@ -11,6 +11,7 @@ submodule(fuge_solver_type) fuge_solve_procedure
   use fuge_problem_bounds, only: begins_with_one
   use fuge_problem_type, only: check_problem, copy_problem, move_solution
   use fuge_product_engine, only: product_engine
+  use fuge_settled_motions, only: settle_motions
   use fuge_shared_problem, only: check_shared_problem
   use fuge_status, only: require_memory, FUGE_ERR_CANCELLED
   use fuge_threads, only: thread_team, usable_threads
@@ -161,6 +162,7 @@ contains
       call explain_by_force_level(operator, problem, options%tolerance, info)
     end if
     if (.not. info%failed()) call settle_own_springs(operator, problem, solution)
+    if (.not. info%failed()) call settle_motions(operator, problem, solution, info)
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
     if (.not. info%failed()) call engine%keep(operator, problem, solution)
   end subroutine solve_and_certify

@@ -218,7 +218,7 @@ contains
       moments%cross(:, k) = moments%cross(:, k) + values*across_values(k)
     end do
     do k = 1, face%count
-      ! Not by a division: in a part that is as narrow as rounding the weight may be zero.
+      ! No division by the weight: it may be zero in a sliver.
       moments%mass(:, k) = moments%mass(:, k) + values*mixed(k)
       moments%normal(:, k) = moments%normal(:, k) + values(k)*normal
       moments%place(:, k) = moments%place(:, k) + values(k)*facing

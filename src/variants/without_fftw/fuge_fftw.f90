@@ -1,6 +1,6 @@
 !> What `fuge_fft` calls where the library is built without FFTW (FUGE_WITH_FFTW=OFF): there is no memory, and no plan.
 !>
-!> It takes the place of src/core/numerics/fourier/fuge_fftw.f90, and lies outside of src/core/ because fpm compiles all
+!> It takes the place of src/core/fourier/fuge_fftw.f90, and lies outside of src/core/ because fpm compiles all
 !> that is there. The names, arguments and constants are those of that module. Nothing is executed: `set` of an
 !> `fft_plan` asks HAS_FFTW and refuses.
 module fuge_fftw

@@ -1,6 +1,6 @@
 !> What `fuge_fft` calls where FFTW's procedure for a shared planner is missing: with MKL, and without FFTW.
 !>
-!> It takes the place of src/core/numerics/fourier/fuge_fftw_planner.f90. MKL needs no lock but that of `fuge_fft`.
+!> It takes the place of src/core/fourier/fuge_fftw_planner.f90. MKL needs no lock but that of `fuge_fft`.
 module fuge_fftw_planner
   implicit none
   private

@@ -76,52 +76,54 @@ static void test_dense_and_band(void) {
   fuge_body_free(&body);
 }
 
-#ifdef HAVE_SPARSE
-static void test_sparse(void) {
+/* fuge_body_columns or fuge_body_sparse. */
+typedef int (*columns_function)(int degrees, const int *column, const int *row, const double *value, fuge_body **body,
+                                char *message, size_t len);
+
+static void test_columns(columns_function create) {
   const int column[N + 1] = {0, 1, 3, 5, 7, 9}, row[9] = {0, 0, 1, 2, 1, 3, 2, 3, 4};
   double value[9] = {4, -2, 4, 4, -2, 4, -2, -2, 2};
   int bad[9];
   char message[256];
   fuge_body *body = NULL;
 
-  CHECK_DONE(fuge_body_sparse(N, column, row, value, &body, NULL, 0));
+  CHECK_DONE(create(N, column, row, value, &body, NULL, 0));
   check_chain(body);
   fuge_body_free(&body);
   memcpy(bad, row, sizeof bad);
   bad[3] = N;
-  CHECK_DONE(fuge_body_sparse(N, column, bad, value, &body, NULL, 0));
+  CHECK_DONE(create(N, column, bad, value, &body, NULL, 0));
   CHECK_DONE(fuge_body_set_contact(body, 2, 1, TOUCH, OUTWARD));
   CHECK_STATUS(fuge_body_condense(body), FUGE_ERR_DOF);
   fuge_body_message(body, message, sizeof message);
   CHECK_CONTAINS(message, "row(3) = 5");
   fuge_body_free(&body);
-  CHECK_STATUS(fuge_body_sparse(0, column, row, value, &body, NULL, 0), FUGE_ERR_SIZE);
-  CHECK_STATUS(fuge_body_sparse(N, NULL, row, value, &body, NULL, 0), FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_body_sparse(N, column, row, value, NULL, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(create(0, column, row, value, &body, NULL, 0), FUGE_ERR_SIZE);
+  CHECK_STATUS(create(N, NULL, row, value, &body, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(create(N, column, row, value, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK(body == NULL);
 }
 
 /* Springs that are all touched: CAMD 2.4.6 reads memory that is not its own where one node of its graph is last. */
-static void test_sparse_touched_everywhere(void) {
+static void test_columns_touched_everywhere(columns_function create) {
   const int column[3] = {0, 1, 3}, row[3] = {0, 0, 1}, touch[2] = {0, 1};
   const double spring = 2.0, springs[3] = {2.0, 1.0, 2.0}, outward[2] = {1.0, 1.0};
   double alpha[4];
   fuge_body *body = NULL;
 
-  CHECK_DONE(fuge_body_sparse(1, column, row, &spring, &body, NULL, 0));
+  CHECK_DONE(create(1, column, row, &spring, &body, NULL, 0));
   CHECK_DONE(fuge_body_set_contact(body, 1, 1, touch, outward));
   CHECK_DONE(fuge_body_condense(body));
   CHECK_DONE(fuge_body_get_influence(body, alpha, 1));
   CHECK_NEAR(alpha[0], 0.5, 1e-15);
   fuge_body_free(&body);
-  CHECK_DONE(fuge_body_sparse(2, column, row, springs, &body, NULL, 0));
+  CHECK_DONE(create(2, column, row, springs, &body, NULL, 0));
   CHECK_DONE(fuge_body_set_contact(body, 2, 1, touch, outward));
   CHECK_DONE(fuge_body_condense(body));
   CHECK_DONE(fuge_body_get_influence(body, alpha, 2));
   CHECK_VALUES(alpha, 1e-15, 2.0 / 3.0, -1.0 / 3.0);
   fuge_body_free(&body);
 }
-#endif
 
 /* Between two stops, without supports: all of the load goes to one of them. */
 static void test_floating(void) {
@@ -289,9 +291,11 @@ static void test_bad_calls(void) {
 
 int main(void) {
   test_dense_and_band();
+  test_columns(fuge_body_columns);
+  test_columns_touched_everywhere(fuge_body_columns);
 #ifdef HAVE_SPARSE
-  test_sparse();
-  test_sparse_touched_everywhere();
+  test_columns(fuge_body_sparse);
+  test_columns_touched_everywhere(fuge_body_sparse);
 #endif
   test_floating();
   test_rigid_modes();

@@ -1,14 +1,12 @@
-!> What a field says, in one array: six stresses and three displacements; and what its largest stress is to be.
+!> What a field says, in one array: six stresses and three displacements.
 module field_expectations
-  use expectations, only: add_difference, add_words, REPORT_LENGTH
   use fuge_field_type, only: fuge_field
   use fuge_kinds, only: dp
   use fuge_status, only: fuge_info
-  use fuge_stress_peak_type, only: fuge_stress_peak
   implicit none
   private
 
-  public :: below_cells, of_axis, of_plane, unexpected_peak, values_at
+  public :: below_cells, of_axis, of_plane, values_at
 
   !> In the place of values that were refused.
   real(dp), parameter :: NONE = huge(1.0_dp)
@@ -61,22 +59,5 @@ contains
     values([1, 2, 3, 5], :) = stress
     values([7, 9], :) = u
   end function of_axis
-
-  !> '' for a field with this largest stress.
-  function unexpected_peak(field, measure, expected) result(report)
-    class(fuge_field), intent(in) :: field
-    integer, intent(in) :: measure
-    type(fuge_stress_peak), intent(in) :: expected
-    character(len=REPORT_LENGTH) :: report
-    type(fuge_stress_peak) :: found
-    type(fuge_info) :: info
-
-    call field%largest(measure, found, info)
-    report = info%message
-    call add_difference('value and place', [found%value, found%place], [expected%value, expected%place], 0.0_dp, report)
-    call add_difference('tensor', found%tensor, expected%tensor, 0.0_dp, report)
-    if (any([found%location, found%layer, found%cell] /= [expected%location, expected%layer, expected%cell])) &
-      call add_words('another location, layer or cell', report)
-  end function unexpected_peak
 
 end module field_expectations

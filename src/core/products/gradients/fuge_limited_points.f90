@@ -1,0 +1,302 @@
+!> Points on the wrong side where forces have limits: in contact although their force is beyond the range that its stop
+!> gives it, open although they penetrate a stop, or at their limit although the gap has come back to the stop.
+module fuge_limited_points
+  use fuge_contact_iterate, only: contact_iterate, overlap_at
+  use fuge_contact_scene, only: contact_scene
+  use fuge_equilibrium, only: find_equilibrium
+  use fuge_kinds, only: dp
+  implicit none
+  private
+
+  public :: choose_limited_contact, count_wrong_limited, exchange_limited_points, excess_is_decided, greatest_excess, &
+    release_furthest, return_deepest, set_balanced_forces, step_to_limit
+
+  !> Forces this near to their limits, as a fraction of these, are there.
+  real(dp), parameter :: ROUNDING = 1.0e-12_dp
+
+contains
+
+  !> The contact set and the points at their limits that the forces to start from suggest.
+  subroutine choose_limited_contact(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    integer :: k
+
+    do k = 1, size(scene%gap)
+      associate (force => iterate%force(k), limited => iterate%limited(k))
+        limited = 0
+        ! Beyond a stop that takes no force a point is open; a tied one has no other state there.
+        if (force > 0.0_dp .and. force >= scene%limit(k)) limited = merge(1, 0, scene%limit(k) > 0.0_dp .or. &
+                                                                          scene%is_tied(k))
+        if (scene%play(k) < huge(force)) then
+          if (force < 0.0_dp .and. -force >= scene%limit_upper(k)) limited = -1
+        end if
+        iterate%at_upper(k) = force < 0.0_dp .and. scene%play(k) < huge(force) .and. .not. scene%is_tied(k)
+        iterate%contact(k) = limited == 0 .and. ((force > 0.0_dp .and. scene%limit(k) > 0.0_dp) &
+                                                 .or. iterate%at_upper(k) .or. scene%is_tied(k))
+        if (allocated(scene%excluded)) then
+          if (scene%excluded(k)) limited = 0
+          iterate%contact(k) = iterate%contact(k) .and. .not. scene%excluded(k)
+        end if
+      end associate
+    end do
+    if (scene%prescribed) return
+    if (scene%rows%anywhere(any(iterate%contact) .or. any(iterate%limited /= 0))) return
+    iterate%contact = scene%limit > 0.0_dp
+    if (allocated(scene%excluded)) iterate%contact = iterate%contact .and. .not. scene%excluded
+  end subroutine choose_limited_contact
+
+  !> By how much a `force` at point `k`, in contact, is beyond the range that its stop gives it.
+  pure function excess_of(scene, iterate, k, force) result(excess)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    real(dp), intent(in) :: force
+    real(dp) :: excess
+    real(dp) :: least, most
+
+    call scene%find_range(k, iterate%at_upper(k), least, most)
+    excess = max(least - force, force - most)
+  end function excess_of
+
+  !> Is point `k` on the wrong side, by more than `noise` if it is not in contact?
+  pure function is_wrong(scene, noise, iterate, k)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: noise
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    logical :: is_wrong
+
+    if (iterate%contact(k)) then
+      is_wrong = excess_of(scene, iterate, k, iterate%force(k)) > iterate%tension_noise
+    else
+      is_wrong = overlap_at(scene, iterate, k) > noise
+    end if
+  end function is_wrong
+
+  !> Number of points on the wrong side.
+  function count_wrong_limited(scene, noise, iterate) result(wrong)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: noise
+    type(contact_iterate), intent(in) :: iterate
+    integer :: wrong
+    integer :: k
+
+    wrong = 0
+    do k = 1, size(scene%gap)
+      if (is_wrong(scene, noise, iterate, k)) wrong = wrong + 1
+    end do
+    wrong = scene%rows%total_count(wrong)
+  end function count_wrong_limited
+
+  !> Each point on the wrong side goes to the state next to its own.
+  subroutine exchange_limited_points(scene, noise, iterate)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: noise
+    type(contact_iterate), intent(inout) :: iterate
+    integer :: k
+
+    do k = 1, size(scene%gap)
+      if (.not. is_wrong(scene, noise, iterate, k)) cycle
+      if (iterate%contact(k)) then
+        call leave_stop(scene, k, iterate)
+      else
+        call return_to_stop(scene, k, iterate)
+      end if
+    end do
+  end subroutine exchange_limited_points
+
+  !> Point `k`, whose force is beyond its range, goes to its limit, or opens where the force changes its sign.
+  pure subroutine leave_stop(scene, k, iterate)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: k
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: least, most
+
+    call scene%find_range(k, iterate%at_upper(k), least, most)
+    iterate%contact(k) = .false.
+    iterate%limited(k) = 0
+    if (iterate%force(k) > most .and. most > 0.0_dp) iterate%limited(k) = 1
+    if (iterate%force(k) < least .and. (least < 0.0_dp .or. scene%is_tied(k))) iterate%limited(k) = -1
+    if (scene%is_tied(k) .and. iterate%force(k) > most) iterate%limited(k) = 1
+  end subroutine leave_stop
+
+  !> Point `k` comes to the stop that it penetrates, or whose limit it leaves.
+  pure subroutine return_to_stop(scene, k, iterate)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: k
+    type(contact_iterate), intent(inout) :: iterate
+    logical :: at_upper
+
+    if (iterate%limited(k) /= 0) then
+      at_upper = iterate%limited(k) < 0
+    else
+      at_upper = .not. overlaps_lower(scene, iterate, k)
+    end if
+    iterate%limited(k) = 0
+    iterate%contact(k) = .true.
+    iterate%at_upper(k) = at_upper .and. .not. scene%is_tied(k)
+  end subroutine return_to_stop
+
+  !> Is the open point `k` below its lower stop, which has a force?
+  pure function overlaps_lower(scene, iterate, k) result(overlaps)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    logical :: overlaps
+
+    overlaps = scene%limit(k) > 0.0_dp .and. (scene%gap(k) - iterate%motion) + iterate%displacement(k) < 0.0_dp
+  end function overlaps_lower
+
+  !> Forces within their limits that are in equilibrium with the load, and the states that belong to them.
+  subroutine set_balanced_forces(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp), allocatable :: most(:)
+    real(dp) :: ignored(1)
+
+    if (allocated(scene%modes)) then
+      iterate%force = scene%balance
+    else if (iterate%prescribed) then
+      iterate%force = 0.0_dp
+    else
+      allocate (most, source=scene%limit)
+      if (allocated(scene%excluded)) where (scene%excluded) most = 0.0_dp
+      call find_equilibrium(reshape(0.0_dp*most + 1.0_dp, [size(most), 1]), [1.0_dp], 0.0_dp*most, most, &
+                            iterate%force, ignored, sharing=scene%rows%point_space)
+      ! An even share of a load that all limits just carry is beside these by rounding.
+      where (iterate%force >= (1.0_dp - ROUNDING)*most) iterate%force = most
+    end if
+    call choose_limited_contact(scene, iterate)
+  end subroutine set_balanced_forces
+
+  !> From the feasible forces `start` (n) go towards those of the iterate, which are the solution of its contact set,
+  !> until the first one reaches the end of its range: that point leaves its stop, and the forces of the iterate are
+  !> feasible again. If that is `newest`, which has just come back to its stop, it came by rounding and is `locked` (n).
+  !> `newest` is 0 where another rank has it.
+  subroutine step_to_limit(scene, start, newest, locked, iterate)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: start(:)
+    integer, intent(in) :: newest
+    logical, intent(inout) :: locked(:)
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: fraction, least, most, step_length
+    integer :: blocking, k
+
+    step_length = huge(step_length)
+    blocking = 0
+    do k = 1, size(start)
+      if (.not. iterate%contact(k)) cycle
+      if (excess_of(scene, iterate, k, iterate%force(k)) <= iterate%tension_noise) cycle
+      call scene%find_range(k, iterate%at_upper(k), least, most)
+      fraction = min(abs(min(max(iterate%force(k), least), most) - start(k)) &
+                     /max(abs(iterate%force(k) - start(k)), tiny(most)), 1.0_dp)
+      if (k == newest .and. .not. fraction > 0.0_dp) fraction = -1.0_dp
+      if (fraction >= step_length) cycle
+      step_length = fraction
+      blocking = k
+    end do
+    call keep_on_one_rank(scene, step_length, blocking)
+    step_length = scene%rows%least(step_length)
+    if (step_length >= huge(step_length)) return
+    if (step_length < 0.0_dp .and. blocking > 0) locked(blocking) = .true.
+    step_length = max(step_length, 0.0_dp)
+    do k = 1, size(start)
+      if (.not. iterate%contact(k)) cycle
+      if (k == blocking) call leave_stop(scene, k, iterate)
+      iterate%force(k) = start(k) + step_length*(iterate%force(k) - start(k))
+    end do
+  end subroutine step_to_limit
+
+  !> Of the points of the ranks only that with the least `key` remains, the others become 0.
+  subroutine keep_on_one_rank(scene, key, point)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: key
+    integer, intent(inout) :: point
+    real(dp) :: owner(1)
+
+    owner = real(scene%rows%number(), dp)
+    call scene%rows%take_from_least(key, owner)
+    if (abs(owner(1) - real(scene%rows%number(), dp)) > 0.0_dp) point = 0
+  end subroutine keep_on_one_rank
+
+  !> The point that is furthest on the wrong side of its stop, by more than `noise` and not `locked` (n), comes back to
+  !> it: `point`, 0 if there is none, or where it is another rank's.
+  subroutine return_deepest(scene, noise, locked, iterate, point)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: noise
+    logical, intent(in) :: locked(:)
+    type(contact_iterate), intent(inout) :: iterate
+    integer, intent(out) :: point
+    real(dp) :: greatest, overlap
+    integer :: k
+
+    point = 0
+    greatest = noise
+    do k = 1, size(scene%gap)
+      if (iterate%contact(k) .or. locked(k)) cycle
+      overlap = overlap_at(scene, iterate, k)
+      if (overlap <= greatest) cycle
+      greatest = overlap
+      point = k
+    end do
+    call keep_on_one_rank(scene, -greatest, point)
+    if (point > 0) call return_to_stop(scene, point, iterate)
+  end subroutine return_deepest
+
+  !> Of the points at the limit of their lower stop, the one that is furthest above the stop comes back to it; only
+  !> points with forces above `least` do.
+  subroutine release_furthest(scene, least, iterate)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: least
+    type(contact_iterate), intent(inout) :: iterate
+    real(dp) :: furthest
+    integer :: k, point
+
+    point = 0
+    furthest = -huge(furthest)
+    do k = 1, size(scene%gap)
+      if (iterate%limited(k) < 1 .or. .not. iterate%force(k) > least) cycle
+      if (scene%gap(k) + iterate%displacement(k) <= furthest) cycle
+      furthest = scene%gap(k) + iterate%displacement(k)
+      point = k
+    end do
+    call keep_on_one_rank(scene, -furthest, point)
+    if (point > 0) call return_to_stop(scene, point, iterate)
+  end subroutine release_furthest
+
+  !> The largest excess of a force in contact over its range; 0 if there is none.
+  function greatest_excess(scene, iterate) result(excess)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp) :: excess
+    integer :: k
+
+    excess = 0.0_dp
+    do k = 1, size(scene%gap)
+      if (iterate%contact(k)) excess = max(excess, excess_of(scene, iterate, k, iterate%force(k)))
+    end do
+    if (excess <= iterate%tension_noise) excess = 0.0_dp
+    excess = scene%rows%largest(excess)
+  end function greatest_excess
+
+  !> As `tension_is_decided`, for forces beyond their range.
+  function excess_is_decided(scene, iterate, decisive) result(decided)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(in) :: decisive
+    logical :: decided
+    real(dp) :: extremes(2)
+    integer :: k
+
+    extremes = 0.0_dp
+    do k = 1, size(scene%gap)
+      if (.not. iterate%contact(k)) cycle
+      extremes(1) = max(extremes(1), abs(iterate%work(k)))
+      extremes(2) = max(extremes(2), excess_of(scene, iterate, k, iterate%force(k) - iterate%work(k)))
+    end do
+    call scene%rows%raise(extremes)
+    decided = extremes(1) <= decisive*extremes(2)
+  end function excess_is_decided
+
+end module fuge_limited_points
