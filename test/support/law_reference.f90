@@ -217,13 +217,17 @@ contains
     logical, intent(out) :: regular
     real(dp) :: system(size(state) + problem%mode_count(), size(state) + problem%mode_count())
     real(dp) :: right(size(system, 1)), x(size(system, 1)), modes(size(state), problem%mode_count())
-    real(dp) :: compliance(size(state), size(state)), stiffness(problem%mode_count()), limits(2)
+    real(dp) :: compliance(size(state), size(state)), stiffness(problem%mode_count()), limits(2), datum
     integer :: j, k, n
 
     n = size(state)
     modes = modes_of(problem)
     compliance = with_compliance(alpha, problem)
     stiffness = stiffness_of(problem)
+    ! Under a load, gaps count from that of a contact point: a small load is not lost in large gaps.
+    datum = 0.0_dp
+    k = findloc(state == 1, .true., dim=1)
+    if (k > 0 .and. problem%is_plain()) datum = problem%gap(k)
     system = 0.0_dp
     right = 0.0_dp
     do k = 1, n
@@ -231,7 +235,7 @@ contains
       if (abs(state(k)) == 1) then
         system(k, :n) = compliance(k, :)
         system(k, n + 1:) = -modes(k, :)
-        right(k) = -problem%gap(k)
+        right(k) = datum - problem%gap(k)
         if (state(k) < 0) right(k) = right(k) + problem%gap_upper(k)
       else
         system(k, k) = 1.0_dp
@@ -251,8 +255,12 @@ contains
     end do
     call eliminate(system, right, x, regular)
     tried%force = x(:n)
-    tried%motion = x(n + 1:)
+    tried%motion = x(n + 1:) + datum
     tried%gap = problem%gap + matmul(compliance, tried%force) - matmul(modes, tried%motion)
+    where (state == 1) tried%gap = 0.0_dp
+    if (any(state == -1)) then
+      where (state == -1) tried%gap = problem%gap_upper
+    end if
   end subroutine try_states
 
   !> The largest residual of all equations and the largest distance from the law of a point, relative to one length and
@@ -294,15 +302,18 @@ contains
     end do
   end function law_violation
 
-  !> Is any component of the resultant that acts not zero?
+  !> Is any component of the resultant not zero that points alone carry?
   pure function has_load(problem)
     type(fuge_problem), intent(in) :: problem
     logical :: has_load
+    real(dp) :: stiffness(problem%mode_count())
     integer :: j
 
     has_load = .false.
-    do j = 1, problem%mode_count()
-      if (.not. is_prescribed(problem, j)) has_load = has_load .or. abs(problem%resultant(j)) > 0.0_dp
+    stiffness = stiffness_of(problem)
+    do j = 1, size(stiffness)
+      if (is_prescribed(problem, j) .or. stiffness(j) > 0.0_dp) cycle
+      has_load = has_load .or. abs(problem%resultant(j)) > 0.0_dp
     end do
   end function has_load
 

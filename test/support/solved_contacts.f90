@@ -81,8 +81,11 @@ contains
     type(fuge_info), intent(out), optional :: info
     type(fuge_solver), intent(inout), optional :: solver
     type(fuge_solution) :: solution
+    type(fuge_problem) :: problem
 
-    solution = solved_operator(operator, fuge_problem(gap=gap, resultant=[load]), options, status, what, info, solver)
+    allocate (problem%gap, source=gap)
+    problem%resultant = [load]
+    solution = solved_operator(operator, problem, options, status, what, info, solver)
   end function pressed_operator
 
   function pressed_matrix(alpha, gap, load, options, status, what, info, solver) result(solution)
@@ -94,8 +97,11 @@ contains
     type(fuge_info), intent(out), optional :: info
     type(fuge_solver), intent(inout), optional :: solver
     type(fuge_solution) :: solution
+    type(fuge_problem) :: problem
 
-    solution = solved_matrix(alpha, fuge_problem(gap=gap, resultant=[load]), options, status, what, info, solver)
+    allocate (problem%gap, source=gap)
+    problem%resultant = [load]
+    solution = solved_matrix(alpha, problem, options, status, what, info, solver)
   end function pressed_matrix
 
   subroutine require(info, status, what)
