@@ -13,7 +13,7 @@ module law_reference
 contains
 
   !> A random problem with `motions` modes and a positive definite `alpha` (points, points). `whole` numbers cause ties.
-  !> Each kind of law occurs, or without `laws` only play, ties, excluded points and prescribed motions, in all problems.
+  !> Each kind of law occurs; without `laws` only play, ties, excluded points and prescribed motions do.
   subroutine random_law_problem(seed, points, motions, whole, alpha, problem, laws)
     integer(int64), intent(inout) :: seed
     integer, intent(in) :: points, motions
