@@ -13,7 +13,8 @@ module engine_judge
   use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_NOT_DEFINITE, &
     FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
-  use general_reference, only: general_violation, is_excluded, is_prescribed, modes_of, play_of
+  use general_reference, only: is_excluded, modes_of, play_of
+  use law_reference, only: law_violation
   implicit none
   private
 
@@ -300,7 +301,7 @@ contains
       ! Nothing to be compared with, and nothing to compare.
       if (.not. (max(maxval(abs(scene%problem%gap)), maxval(abs(solution(k)%force))) > 0.0_dp &
                  .and. maxval(abs(scene%alpha)) > 0.0_dp)) cycle
-      violation = general_violation(scene%alpha, without_prescribed(scene%problem, solution(k)), solution(k))
+      violation = law_violation(scene%alpha, without_prescribed(scene%problem, solution(k)), solution(k))
       if (violation > SAFETY*MOST_RESIDUAL) call fail(verdict, 'own residual', text(violation)//' engine '//text(k))
     end do
   end subroutine check_residuals

@@ -1,13 +1,13 @@
 !> Estimated errors of forces beside the true ones, over random problems.
 module hard_estimates
   use, intrinsic :: iso_fortran_env, only: int64
-  use exact_reference, only: force_error_of
   use fuge_kinds, only: dp
   use fuge_options_type, only: fuge_options, FUGE_ACTIVE_SET
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_RESIDUAL
   use general_reference, only: solve_general
   use hard_conditions, only: random_problem
+  use law_oracle, only: force_error_of
   implicit none
   private
 

@@ -245,9 +245,10 @@ contains
     q = q + right(nb + 1:)
   end subroutine polish
 
-  !> Gauss-Jordan elimination with complete pivoting; unknowns without a pivot are zero.
-  pure subroutine solve_consistent(matrix, right)
+  !> Gauss-Jordan elimination with complete pivoting; unknowns without a pivot are zero. `rank`: how many have one.
+  pure subroutine solve_consistent(matrix, right, rank)
     real(qp), intent(inout) :: matrix(:, :), right(:)
+    integer, intent(out), optional :: rank
     real(qp) :: largest, solution(size(right))
     logical :: row_used(size(right)), column_used(size(right))
     integer :: place(2), row_of(size(right)), i, k
@@ -276,6 +277,7 @@ contains
       if (row_of(k) > 0) solution(k) = right(row_of(k))
     end do
     right = solution
+    if (present(rank)) rank = count(column_used)
   end subroutine solve_consistent
 
 end module interior_points

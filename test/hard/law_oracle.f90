@@ -2,7 +2,7 @@
 module law_oracle
   use, intrinsic :: iso_fortran_env, only: qp => real128
   use fuge_kinds, only: dp
-  use fuge_problem_type, only: fuge_problem
+  use fuge_problem_type, only: fuge_problem, fuge_solution
   use general_reference, only: is_prescribed, modes_of
   use interior_points, only: exchange, find_interior, largest_of, solve_consistent, NEGLIGIBLE
   use law_programs, only: box_program, compliance_of, gradient_of, is_definite, rank_of, set_equations, set_program, &
@@ -10,7 +10,7 @@ module law_oracle
   implicit none
   private
 
-  public :: find_bounds, solve_law
+  public :: find_bounds, force_error_of, refine_law, solve_law
 
   !> The answer to a problem.
   type, public :: law_answer
@@ -59,6 +59,53 @@ contains
     end associate
     call restore(alpha, problem, v, q, answer)
   end subroutine solve_law
+
+  !> Forces (n) from the states of an answer on, of which the worst are exchanged one at a time. `found` unless the
+  !> equations of the last states are singular, or their answer does not fulfil the law.
+  pure subroutine refine_law(alpha, problem, start, force, found)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: start
+    real(qp), intent(out) :: force(:)
+    logical, intent(out) :: found
+    !> Forces and gaps of the wrong sign count beyond this fraction of the largest force.
+    real(qp), parameter :: EXACT = 1.0e-20_qp
+    type(law_answer) :: answer
+    real(qp), allocatable :: v(:), q(:), matrix(:, :), right(:)
+    integer :: k, rank
+
+    call set_program(alpha, problem, answer%program)
+    associate (program => answer%program)
+      v = program%sign*real(start%force(program%point), qp)/(program%force_unit(program%point)*program%size)
+      v = min(max(v, program%low), program%high)
+      answer%at = merge(-1, merge(1, 0, v >= program%high), v <= program%low)
+      q = spread(0.0_qp, 1, program%motions())
+      call exchange(program, answer%at, v, q)
+      call set_equations(program, pack([(k, k=1, size(v))], answer%at == 0), matrix)
+      right = spread(0.0_qp, 1, size(matrix, 1))
+      call solve_consistent(matrix, right, rank)
+      found = rank == size(right) .and. violation_of(program, v, q) <= EXACT*largest_of(v)
+    end associate
+    call restore(alpha, problem, v, q, answer)
+    force = answer%force
+  end subroutine refine_law
+
+  !> The largest error of a force of `solution`, relative to the largest force; negative if there is no unique answer
+  !> that can be found from its states.
+  pure function force_error_of(alpha, problem, solution) result(error)
+    real(dp), intent(in) :: alpha(:, :)
+    type(fuge_problem), intent(in) :: problem
+    type(fuge_solution), intent(in) :: solution
+    real(dp) :: error
+    real(qp) :: force(size(solution%force))
+    logical :: found
+
+    call refine_law(alpha, problem, solution, force, found)
+    error = -1.0_dp
+    if (.not. found) return
+    error = 0.0_dp
+    if (maxval(abs(force)) > 0.0_qp) error = real(maxval(abs(solution%force - force))/maxval(abs(force)), dp)
+  end function force_error_of
 
   !> Do points between their limits resist all motions without springs, and together with those at a corner of their
   !> law?

@@ -1,7 +1,6 @@
 !> Bounds of proofs beside true errors, over random problems with exact answers and over answers in quadruple precision.
 module proof_judge
   use, intrinsic :: iso_fortran_env, only: int64, qp => real128
-  use exact_reference, only: solve_exactly
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
   use fuge_matrix_operator, only: fuge_dense_operator
@@ -11,6 +10,7 @@ module proof_judge
   use fuge_status, only: fuge_info
   use general_reference, only: solve_general
   use hard_conditions, only: random_problem
+  use law_oracle, only: refine_law
   use whole_number_problems, only: draw_whole_problem, whole_problem
   implicit none
   private
@@ -122,7 +122,7 @@ contains
       call random_problem(seed, n, kind, decimals, alpha, problem)
       call solve_general(alpha, problem, solution, info)
       found = .not. info%failed()
-      if (found) call solve_exactly(alpha, problem, solution, exact, found)
+      if (found) call refine_law(alpha, problem, solution, exact, found)
       if (found) then
         call prove_answer(alpha, problem, solution, solution, proof, excess)
         if (any(abs(solution%force - exact) > proof%force_bound)) counts%too_low = counts%too_low + 1

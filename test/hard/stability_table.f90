@@ -10,11 +10,11 @@ program stability_table
   use fuge_options_type, only: FUGE_ACTIVE_SET, FUGE_ITERATIVE, FUGE_TABLEAU
   use fuge_problem_type, only: fuge_solution
   use fuge_status, only: fuge_info, FUGE_DONE
-  use general_reference, only: general_violation
   use hard_general, only: general_scene, numbered_general, solve_general_scene, general_force_error, &
     general_gap_error, GENERAL_SCENES
   use hard_run, only: solve_scene, force_error, gap_error, own_violation
   use hard_scenes, only: hard_scene, numbered_scene, SCENES
+  use law_reference, only: law_violation
   implicit none
 
   !> An answer with a larger residual must have a warning.
@@ -100,7 +100,7 @@ contains
       row = row//short(general_force_error(scene, solution))//' (forces)'
     end if
     write (unit, '(a)') row//' |'
-    violation = general_violation(scene%alpha, scene%problem, solution)
+    violation = law_violation(scene%alpha, scene%problem, solution)
     if (info%status /= FUGE_DONE .or. (info%residual <= MOST .and. violation <= MOST)) return
     misses = misses + 1
     write (error_unit, '(a,2es12.3)') trim(scene%name), info%residual, violation

@@ -12,15 +12,16 @@ module law_reference
 
 contains
 
-  !> A random problem in which each kind of law occurs, with `motions` modes and a positive definite `alpha`. `whole`
-  !> numbers cause ties.
-  subroutine random_law_problem(seed, points, motions, whole, alpha, problem)
+  !> A random problem with `motions` modes and a positive definite `alpha` (points, points). `whole` numbers cause ties.
+  !> Each kind of law occurs; without `laws` only play, ties, excluded points and prescribed motions do.
+  subroutine random_law_problem(seed, points, motions, whole, alpha, problem, laws)
     integer(int64), intent(inout) :: seed
     integer, intent(in) :: points, motions
     logical, intent(in) :: whole
     real(dp), intent(out) :: alpha(:, :)
     type(fuge_problem), intent(out) :: problem
-    real(dp) :: base(points, points), kind_of(6)
+    logical, intent(in), optional :: laws
+    real(dp) :: base(points, points), choice(points), kind_of(6)
     integer :: k
 
     do k = 1, points
@@ -40,6 +41,13 @@ contains
     end do
     if (motions > 0) problem%modes(:, 1) = 1.0_dp
     call draw(seed, kind_of)
+    if (present(laws)) then
+      ! Those of the six kinds that are drawn below this.
+      if (.not. laws) kind_of = [0.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 1.0_dp, 0.5_dp*kind_of(6)]
+      call draw(seed, choice)
+      choice(1) = 1.0_dp
+      if (.not. laws) problem%excluded = choice < 0.1_dp
+    end if
     if (kind_of(1) < 0.5_dp) call some_values(seed, whole, 0, 2, 0.5_dp, infinity(), points, problem%gap_upper)
     if (kind_of(2) < 0.7_dp) call some_values(seed, whole, 0, 2, 0.3_dp, infinity(), points, problem%limit)
     if (kind_of(3) < 0.5_dp) call some_values(seed, whole, 0, 2, 0.3_dp, infinity(), points, problem%limit_upper)
@@ -135,21 +143,23 @@ contains
     energy = 0.5_dp*(dot_product(solution%force, matmul(compliance, solution%force)) + sum(stiffness*solution%motion**2))
   end function energy_of
 
-  !> Try every combination of the five states. `force` and `motion` are those of the regular system whose violation is
-  !> least, `worst` is that violation; `all_regular`: no system was singular.
-  pure subroutine enumerate_laws(alpha, problem, force, motion, worst, all_regular)
+  !> Try every combination of the five states. `answer` is that of the regular system whose violation is least, zero if
+  !> there is none; `worst` is that violation; `all_regular`: no system was singular.
+  pure subroutine enumerate_laws(alpha, problem, answer, worst, all_regular)
     real(dp), intent(in) :: alpha(:, :)
     type(fuge_problem), intent(in) :: problem
-    real(dp), intent(out) :: force(:), motion(:), worst
+    type(fuge_solution), intent(out) :: answer
+    real(dp), intent(out) :: worst
     logical, intent(out) :: all_regular
     type(fuge_solution) :: tried
-    integer :: state(size(force)), code, rest, k
+    integer :: state(problem%points()), code, rest, k
     real(dp) :: violation
     logical :: regular
 
     worst = huge(worst)
-    force = 0.0_dp
-    motion = 0.0_dp
+    answer%force = spread(0.0_dp, 1, problem%points())
+    answer%gap = answer%force
+    answer%motion = spread(0.0_dp, 1, problem%mode_count())
     all_regular = .true.
     do code = 0, 5**size(state) - 1
       rest = code
@@ -164,12 +174,12 @@ contains
       violation = law_violation(alpha, problem, tried)
       if (violation >= worst) cycle
       worst = violation
-      force = tried%force
-      motion = tried%motion
+      answer = tried
     end do
   end subroutine enumerate_laws
 
-  !> Does the problem have these states? Without an upper stop no point is there, without a limit none is limited.
+  !> Does the problem have these states? Excluded points are open, tied ones at a stop, where both are the same. Without
+  !> an upper stop no point is there, without a limit none is limited.
   pure function possible(problem, state)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: state(:)
@@ -181,13 +191,20 @@ contains
     do k = 1, size(state)
       limits = limits_of(problem, k)
       select case (state(k))
+      case (0)
+        possible = possible .and. (is_excluded(problem, k) .or. play_of(problem, k) > 0.0_dp)
+      case (1)
+        possible = possible .and. .not. is_excluded(problem, k)
       case (2)
-        possible = possible .and. limits(1) <= huge(1.0_dp)
+        possible = possible .and. limits(1) <= huge(1.0_dp) .and. .not. is_excluded(problem, k)
       case (-1)
-        possible = possible .and. play_of(problem, k) <= huge(1.0_dp)
+        possible = possible .and. play_of(problem, k) <= huge(1.0_dp) .and. play_of(problem, k) > 0.0_dp &
+                   .and. .not. is_excluded(problem, k)
       case (-2)
-        possible = possible .and. play_of(problem, k) <= huge(1.0_dp) .and. limits(2) <= huge(1.0_dp)
+        possible = possible .and. play_of(problem, k) <= huge(1.0_dp) .and. limits(2) <= huge(1.0_dp) &
+                   .and. .not. is_excluded(problem, k)
       end select
+      if (.not. possible) return
     end do
   end function possible
 
@@ -200,13 +217,17 @@ contains
     logical, intent(out) :: regular
     real(dp) :: system(size(state) + problem%mode_count(), size(state) + problem%mode_count())
     real(dp) :: right(size(system, 1)), x(size(system, 1)), modes(size(state), problem%mode_count())
-    real(dp) :: compliance(size(state), size(state)), stiffness(problem%mode_count()), limits(2)
+    real(dp) :: compliance(size(state), size(state)), stiffness(problem%mode_count()), limits(2), datum
     integer :: j, k, n
 
     n = size(state)
     modes = modes_of(problem)
     compliance = with_compliance(alpha, problem)
     stiffness = stiffness_of(problem)
+    ! Under a load, gaps count from that of a contact point: a small load is not lost in large gaps.
+    datum = 0.0_dp
+    k = findloc(state == 1, .true., dim=1)
+    if (k > 0 .and. problem%is_plain()) datum = problem%gap(k)
     system = 0.0_dp
     right = 0.0_dp
     do k = 1, n
@@ -214,7 +235,7 @@ contains
       if (abs(state(k)) == 1) then
         system(k, :n) = compliance(k, :)
         system(k, n + 1:) = -modes(k, :)
-        right(k) = -problem%gap(k)
+        right(k) = datum - problem%gap(k)
         if (state(k) < 0) right(k) = right(k) + problem%gap_upper(k)
       else
         system(k, k) = 1.0_dp
@@ -234,8 +255,12 @@ contains
     end do
     call eliminate(system, right, x, regular)
     tried%force = x(:n)
-    tried%motion = x(n + 1:)
+    tried%motion = x(n + 1:) + datum
     tried%gap = problem%gap + matmul(compliance, tried%force) - matmul(modes, tried%motion)
+    where (state == 1) tried%gap = 0.0_dp
+    if (any(state == -1)) then
+      where (state == -1) tried%gap = problem%gap_upper
+    end if
   end subroutine try_states
 
   !> The largest residual of all equations and the largest distance from the law of a point, relative to one length and
@@ -256,7 +281,10 @@ contains
     length = max(maxval(abs(problem%gap) + matmul(abs(compliance), abs(solution%force)) &
                         + matmul(abs(modes), abs(solution%motion))), tiny(length))
     force = max(maxval(abs(solution%force)), tiny(force))
-    if (maxval(abs(compliance)) > 0.0_dp) force = max(force, 1.0e-4_dp*length/maxval(abs(compliance)))
+    ! Without a load all forces may be rounding errors: compare with the force that displaces by 1e-4 of the lengths.
+    if (maxval(abs(compliance)) > 0.0_dp .and. .not. has_load(problem)) then
+      force = max(force, 1.0e-4_dp*length/maxval(abs(compliance)))
+    end if
     worst = maxval(abs(error))/length
     do k = 1, size(error)
       worst = max(worst, distance_from_law(ratio(play_of(problem, k), length), ratio(limits_of(problem, k), force), &
@@ -273,6 +301,21 @@ contains
       end if
     end do
   end function law_violation
+
+  !> Is any component of the resultant not zero that points alone carry?
+  pure function has_load(problem)
+    type(fuge_problem), intent(in) :: problem
+    logical :: has_load
+    real(dp) :: stiffness(problem%mode_count())
+    integer :: j
+
+    has_load = .false.
+    stiffness = stiffness_of(problem)
+    do j = 1, size(stiffness)
+      if (is_prescribed(problem, j) .or. stiffness(j) > 0.0_dp) cycle
+      has_load = has_load .or. abs(problem%resultant(j)) > 0.0_dp
+    end do
+  end function has_load
 
   !> a/b, or huge where it would overflow.
   elemental function ratio(a, b)

@@ -1,9 +1,9 @@
-!> What problems of one translation and one-sided points are tested against. Other than in general_reference, lengths
+!> What problems of one translation and one-sided points are tested against. Other than in law_reference, lengths
 !> and residuals do not depend on the datum of gaps and matrix.
 module one_sided_reference
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use general_reference, only: enumerate_states
+  use law_reference, only: enumerate_laws
   implicit none
   private
 
@@ -21,7 +21,7 @@ contains
 
     allocate (problem%gap, source=gap)
     allocate (problem%resultant, source=[load])
-    call enumerate_states(alpha, problem, answer, worst, all_regular)
+    call enumerate_laws(alpha, problem, answer, worst, all_regular)
     force = answer%force
     opening = answer%gap
     approach = answer%motion(1)
