@@ -29,7 +29,6 @@ module fuge_core
     FUGE_ERR_MEMORY, FUGE_ERR_CALL_ORDER, FUGE_ERR_OPTION, FUGE_ERR_UNSUPPORTED, FUGE_ERR_OVERFLOW, FUGE_ERR_CALLBACK, &
     FUGE_ERR_CANCELLED, FUGE_ERR_FILE, FUGE_ERR_GAP, FUGE_ERR_MODES, FUGE_ERR_DOF, FUGE_ERR_MESH, &
     FUGE_ERR_LAW
-  use fuge_unbalanced_motion, only: fuge_find_unbalanced_motion
   use fuge_version_number, only: FUGE_VERSION
   use fuge_wanted_pressure, only: fuge_gap_for_pressure, fuge_wanted_contact
   implicit none

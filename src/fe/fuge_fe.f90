@@ -17,6 +17,7 @@ module fuge_fe
   use fuge_stiffness_type, only: fuge_stiffness
   use fuge_structure_mechanism, only: fuge_find_mechanism
   use fuge_surface_mesh_type, only: fuge_surface_mesh
+  use fuge_unbalanced_motion, only: fuge_find_unbalanced_motion
   implicit none
   public
 
