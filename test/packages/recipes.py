@@ -39,9 +39,8 @@ for name in ("recipe.yaml", "meta.yaml"):
     expect(f"cmake >={least_cmake}" in text, f"{name}: not CMake {least_cmake}")
     for needed in ("fftw", "liblapack", "libblas", "suitesparse", "compiler('fortran')", "compiler('c')"):
         expect(needed in text, f"{name}: {needed} is missing")
+    expect("- fuge " not in text, f"{name}: the command `fuge` is part of the Python package")
     expect("license: BSD-3-Clause AND GPL-2.0-or-later\n" in text, f"{name}: licences")
-
-
 
 said = []
 
@@ -78,7 +77,7 @@ expect(any(kind == "version" and values == (version,) for kind, values, _ in sai
 needs = [values[0] for kind, values, _ in said if kind == "depends_on"]
 for needed in ("c", "fortran", "lapack", "blas", "mpi", "suite-sparse", f"cmake@{least_cmake}:"):
     expect(needed in needs, f"package.py: does not depend on {needed}")
-expect(any(need.startswith(f"fftw@{fftw}:") for need in needs), f"package.py: does not depend on FFTW {fftw}")
+expect(f"fftw@{fftw}: precision=float,double" in needs, f"package.py: not FFTW {fftw} in both precisions")
 
 for fault in faults:
     print(fault)

@@ -23,7 +23,7 @@ class Fuge(CMakePackage):
     depends_on("pkgconfig", type="build")
     depends_on("lapack")
     depends_on("blas")
-    depends_on("fftw@3.3.6: precision=double", when="+fftw")
+    depends_on("fftw@3.3.6: precision=float,double", when="+fftw")
     depends_on("suite-sparse", when="+sparse")
     depends_on("mpi", when="+mpi")
 
