@@ -21,7 +21,7 @@ module fuge_c_punch
   public :: find_punch
 
   abstract interface
-    !> fuge_smooth_profile of fuge_punch.h.
+    !> fuge_smooth_profile of fuge_punches.h.
     function c_profile(n, x, gap, slope, user) bind(c) result(status)
       import :: c_int, c_double, c_ptr
       integer(c_int), intent(in), value :: n

@@ -1,4 +1,4 @@
-/* Section "fields" of fuge_stress.h: below the cells of grids, and in layers. */
+/* Section "fields" of fuge_elastic.h: below the cells of grids, and in layers. */
 #include "check.h"
 
 enum { NX = 3, NY = 2, N = NX * NY, DEPTHS = 3, SIDE = 9, CELLS = SIDE * SIDE };

@@ -1,4 +1,4 @@
-/* Section "fields" of fuge_stress.h: the largest stresses. */
+/* Section "fields" of fuge_elastic.h: the largest stresses. */
 #include "check.h"
 
 enum { N = 40 };

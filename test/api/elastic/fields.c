@@ -1,4 +1,4 @@
-/* Section "fields" of fuge_stress.h: at places under cells, rectangles, rings and punches. */
+/* Section "fields" of fuge_elastic.h: at places under cells, rectangles, rings and punches. */
 #include "check.h"
 
 enum { N = 3, MOST = 8 };

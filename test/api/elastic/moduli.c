@@ -1,4 +1,4 @@
-/* Section "two bodies" of fuge_core.h. */
+/* Section "two bodies" of fuge_elastic.h. */
 #include "check.h"
 
 static void test_moduli(void) {

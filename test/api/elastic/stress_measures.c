@@ -1,4 +1,4 @@
-/* Section "stress measures" of fuge_stress.h. */
+/* Section "stress measures" of fuge_elastic.h. */
 #include "check.h"
 
 enum { POINTS = 2 };

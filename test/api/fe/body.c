@@ -1,4 +1,4 @@
-/* Section "condensation" of fuge.h. */
+/* Section "condensation" of fuge_fe.h. */
 #include <limits.h>
 #include "check.h"
 

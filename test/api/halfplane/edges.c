@@ -1,4 +1,4 @@
-/* Section "edges of contact" of fuge_core.h. */
+/* Section "edges of contact" of fuge_halfplane.h. */
 #include "check.h"
 
 enum { N = 64, MOST = 3 };

@@ -1,4 +1,4 @@
-/* Section "half-plane" of fuge_core.h. */
+/* Section "half-plane" of fuge_halfplane.h. */
 #include "check.h"
 
 enum { N = 5, LDA = 7 };

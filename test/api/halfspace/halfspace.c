@@ -1,4 +1,4 @@
-/* Section "half-space" of fuge_area.h. */
+/* Section "half-space" of fuge_halfspace.h. */
 #include <limits.h>
 #include "check.h"
 

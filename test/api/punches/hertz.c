@@ -1,4 +1,4 @@
-/* Section "Hertz" of fuge_area.h. */
+/* Section "Hertz" of fuge_punches.h. */
 #include "check.h"
 
 static void test_sphere(void) {

@@ -1,4 +1,4 @@
-/* Sections "round punches" and "contacts of punches" of fuge_punch.h; smooth.c has what its getters refuse. */
+/* Sections "round punches" and "contacts of punches" of fuge_punches.h; smooth.c has what its getters refuse. */
 #include "check.h"
 
 static const double PI = 3.14159265358979324;

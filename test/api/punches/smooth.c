@@ -1,4 +1,4 @@
-/* Sections "smooth punches" and "contacts of punches" of fuge_punch.h. */
+/* Sections "smooth punches" and "contacts of punches" of fuge_punches.h. */
 #include "check.h"
 
 static const double PI = 3.14159265358979324;

@@ -1,4 +1,4 @@
-/* Section "rings" of fuge_area.h. */
+/* Section "rings" of fuge_rings.h. */
 #include "check.h"
 
 enum { N = 3, LDA = 4 };
