@@ -5,7 +5,7 @@ module fuge_vtk_results
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_input_checks, only: check_finite
   use fuge_kinds, only: dp
-  use fuge_locks, only: lock, unlock, LOCK_FILES
+  use fuge_locks, only: lock, unlock, LOCK_UNITS
   use fuge_number_text, only: index_text, text
   use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_NOT_FINITE, FUGE_ERR_OPTION, FUGE_ERR_SIZE
   use fuge_text_writer, only: text_output
@@ -152,9 +152,9 @@ contains
     character(len=49) :: string
 
     ! gfortran's run-time library keeps internal units in the list through which `open` walks.
-    call lock(LOCK_FILES)
+    call lock(LOCK_UNITS)
     write (string, '(es24.16e3,1x,es24.16e3)') numbers
-    call unlock(LOCK_FILES)
+    call unlock(LOCK_UNITS)
   end function number_pair
 
   !> A whole number, which may be beyond the default integers.
@@ -162,9 +162,9 @@ contains
     integer(int64), intent(in) :: number
     character(len=20) :: string
 
-    call lock(LOCK_FILES)
+    call lock(LOCK_UNITS)
     write (string, '(i0)') number
-    call unlock(LOCK_FILES)
+    call unlock(LOCK_UNITS)
   end function whole
 
   !> Refuse results of another number of values than `points`, `shape_text` in words (FUGE_ERR_SIZE), NaN and infinity

@@ -8,9 +8,8 @@ module fuge_locks
 
   !> Calls of the planner of FFTW, which is not thread-safe.
   integer(c_int), parameter, public :: LOCK_PLANNER = 0
-  !> Opening and closing files: Fortran refuses to open a file that another unit, and so
-  !> another thread, has open.
-  integer(c_int), parameter, public :: LOCK_FILES = 1
+  !> Internal write statements: gfortran's run-time library keeps their units in the list through which `open` walks.
+  integer(c_int), parameter, public :: LOCK_UNITS = 1
 
   !> The coarser grids that an operator keeps and its solvers share.
   integer(c_int), parameter, public :: LOCK_GRIDS = 2
