@@ -47,21 +47,22 @@
  * MESSAGES.  A message says what is wrong, where, and how to mend it; it is empty when all
  * is well, but for a remark of a solve with status 0 whose contact reaches the rim of a free
  * grid of fuge_operator_halfspace: the grid is too small unless the bodies end there.  A call
- * on a solver or a body leaves its message there, for fuge_solver_message and
- * fuge_body_message.  Every other call that can refuse its data has `message` and `len`
+ * on a solver, a body, pairs, bodies or links that has no `message` among its arguments leaves
+ * it there, for fuge_solver_message, fuge_body_message, fuge_pairs_message, fuge_bodies_message
+ * and fuge_links_message.  Every other call that can refuse its data has `message` and `len`
  * as its last arguments: at most len bytes are written, always ended by NUL.  A buffer of
  * FUGE_MESSAGE_LENGTH + 1 bytes holds every message.  NULL, or len = 0, if no message is
  * wanted.
  *
  * THREADS.  Calls in different threads at once are safe unless two of them have the same
- * solver or body, even if both only read results.  Solvers of several threads may share
+ * solver, body, pairs, bodies or links, even if both only read results.  Solvers of several threads may share
  * an operator and its matrix, which they only read, as long as no thread changes or frees
  * it meanwhile.  The work of a solve is shared by as many threads as its options say: they
  * start with the first work, end with the solve, and change no result.  A process may fork:
- * the child may use all objects but the solvers and bodies that other threads were using.
+ * the child may use all objects but those that other threads were using.
  *
  * CALL ORDER.  Either fuge_solve_dense alone, or
- *     fuge_operator_dense, _halfplane or _callback -> fuge_solver_new
+ *     fuge_operator_dense, _halfplane, _halfspace or _callback -> fuge_solver_new
  *     -> fuge_set_gap, and fuge_set_load or another of the section "problem"
  *     -> fuge_solve -> fuge_get_... -> (set, solve, get again)
  *     -> fuge_solver_free -> fuge_operator_free

@@ -299,8 +299,8 @@ int fuge_bodies_add_pair(fuge_bodies *bodies, int contact_body, int opposite_bod
 
 /* Solve.
  *   opt    in   may be NULL
- *   pairs  out  the contact points, in place of those that it has, for fuge_pairs_get_sizes, _gaps,
- *               _points and _unpaired; may be NULL
+ *   pairs  out  the contact points, in place of those that it has, for fuge_pairs_get_sizes,
+ *               _get_gaps, _get_points and _get_unpaired; may be NULL
  * The matrix of all bodies is kept as a band, whose width depends on the numbering of degrees of
  * freedom; for all but small models use fuge_bodies_solve_sparse, in the library fuge_sparse,
  * which needs CHOLMOD.  Warnings: those of fuge_solve, else those

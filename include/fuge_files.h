@@ -24,7 +24,7 @@ int fuge_write_results(const char *path, int nx, int ny, const double *spacing, 
                        char *message, size_t len);
 
 /* The same at the centres of the cells and at several depths, such as the stresses of
- * fuge_halfspace_stress_grid: a VTR file.
+ * fuge_field_grid_stress: a VTR file.
  *   depth    in  depths, ascending; length       results in  count arrays of nx*ny*depths
  *                                                            values, the first depth first
  * ny = 1 for a half-plane.  FUGE_ERR_GRID for depths that do not ascend. */
