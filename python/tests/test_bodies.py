@@ -195,7 +195,7 @@ class MeshWithMatrix(unittest.TestCase):
         self.assertRaises(fuge.InputError, mesh.surface, "top", stiffness, 4)
 
     def test_blocks_in_files(self):
-        # Two blocks 6 wide whose meshes do not match, under 12: the job of the program fuge in this folder.
+        # Two blocks 6 wide whose meshes do not match, under 12: the job of the command fuge in this folder.
         folder = Path(__file__).resolve().parents[2] / "examples" / "data" / "blocks"
         bodies, both, surfaces = fuge.ElasticBodies(), [], []
         for name in ("lower", "upper"):

@@ -41,7 +41,7 @@ class Words(unittest.TestCase):
             ("call fuge_bodies_join first", "call join first"),
             ("call fuge_operator_set_grid before", "call set_grid before"),
             ("operators of fuge_operator_halfplane", "operators of HalfplaneOperator"),
-            ("read it with fuge_read_sparse", "read it with fuge.read_sparse"),
+            ("or call fuge_load_path", "or call fuge.load_path"),
             ("no body has been condensed: call fuge_condense first", "no body has been condensed: call condense first"),
         ]:
             self.assertEqual(in_python(message, {}), wanted)
