@@ -50,7 +50,7 @@ Bodies of finite elements::
     Mesh, read_mesh, join_meshes            meshes, and their pictures for ParaView
     Deck, read_deck                         one-way links and load cases from decks
     rigid_modes                             rigid motions of nodes
-    CompressedColumns                       sparse matrices without scipy
+    CompressedColumns                       sparse matrices by their arrays
 
 Surfaces, profiles and matrices in files::
 

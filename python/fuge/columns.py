@@ -1,4 +1,4 @@
-"""Sparse matrices as compressed columns, with or without scipy."""
+"""Sparse matrices as compressed columns, those of scipy among them."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class CompressedColumns:
         return f"<{type(self).__name__}: {rows} x {columns}, {len(self.value)} entries>"
 
     def tocsc(self) -> Any:
-        """The matrix as ``scipy.sparse.csc_matrix``, which needs scipy."""
+        """The matrix as ``scipy.sparse.csc_matrix``."""
         from scipy.sparse import csc_matrix
 
         return csc_matrix((self.value, self.row, self.column), shape=self.shape)
