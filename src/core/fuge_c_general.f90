@@ -1,4 +1,4 @@
-!> C bindings, section "general": version, status texts, default options.
+!> C bindings, sections "status" and "options and report": version, status texts, default options.
 module fuge_c_general
   use, intrinsic :: iso_c_binding, only: c_int, c_char, c_null_char, c_ptr, c_loc, c_associated, c_f_pointer
   use fuge_c_types, only: c_options

@@ -1,4 +1,4 @@
-!> C bindings, section "results".
+!> C bindings, section "grids".
 module fuge_c_result_files
   use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_ptr, c_size_t
   use fuge_c_arrays, only: find_array

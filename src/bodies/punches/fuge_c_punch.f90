@@ -1,4 +1,4 @@
-!> C bindings of the punches: smooth and round ones, and what their contacts are asked.
+!> C bindings, sections "smooth punches", "round punches" and "contacts of punches".
 module fuge_c_punch
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use, intrinsic :: iso_c_binding, only: c_int, c_double, c_ptr, c_size_t, c_null_ptr, c_funptr, c_loc, c_associated, &

@@ -1,4 +1,6 @@
-/* Surfaces over MPI: the library fuge_mpi, beside fuge.  Every rank of a communicator has some rows of a grid, all
+/* fuge - surfaces over MPI.  SPDX-License-Identifier: BSD-3-Clause
+ *
+ * The library fuge_mpi, beside fuge.  Every rank of a communicator has some rows of a grid, all
  * ranks make the same calls in the same order, with the same arguments but for arrays of points, whose n is the number
  * of points of the rank.  A solver of fuge.h solves on an operator of this header as on any other: fuge_solver_new,
  * fuge_set_gap, fuge_set_load or fuge_set_approach, fuge_solve, and the results, where fuge_get_resultant sums over the
