@@ -139,6 +139,7 @@ contains
     integer :: axis
 
     widest = 0.0_dp
+    extent = 0.0_dp
     found%split_axis = 0
     do axis = 1, cells%axes
       associate (centre => cells%centre(axis, which), width => cells%width(axis, which))
