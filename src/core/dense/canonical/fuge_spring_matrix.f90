@@ -429,8 +429,10 @@ contains
     real(dp) :: largest
 
     largest = maxval(abs(of_points))
-    if (.not. (largest > 0.0_dp .and. all_largest > largest)) return
-    if (force_error*all_largest < largest) then
+    if (.not. all_largest > largest) return
+    if (.not. largest > 0.0_dp) then
+      force_error = 0.0_dp
+    else if (force_error*all_largest < largest) then
       force_error = force_error*all_largest/largest
     else
       force_error = 1.0_dp

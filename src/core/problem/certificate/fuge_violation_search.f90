@@ -222,7 +222,7 @@ contains
     type(point_space) :: space
     type(tile_lengths) :: at
     real(dp), allocatable, dimension(:) :: largest, of_bodies, rounding, soft, terms
-    real(dp) :: most, reach(pass%problem%mode_count()), widest
+    real(dp) :: most, only, reach(pass%problem%mode_count()), widest
     integer :: k, n, stat
 
     space = operator%ranks()
@@ -239,9 +239,11 @@ contains
     call multiply_with_magnitude(operator, largest, of_bodies, terms, info)
     if (info%failed()) return
     soft = 0.0_dp
+    only = 0.0_dp
     if (associated(pass%compliance)) then
       call find_longest(pass, space, error, rounding)
       call find_soft_terms(pass, largest, rounding, soft)
+      only = only_length(pass, largest, terms, space)
     end if
     most = -huge(most)
     reach = spring_reach(pass%problem)
@@ -275,7 +277,7 @@ contains
       ! A body that no force displaces has no lengths of its own.
       where (of_bodies > 0.0_dp) largest = of_bodies
     end if
-    rounding = rounding + 2.0_dp*epsilon(error)*largest
+    rounding = rounding + 2.0_dp*epsilon(error)*max(largest, only)
     where (abs(error) <= rounding)
       error = 0.0_dp
     else where
@@ -310,6 +312,30 @@ contains
       terms(k) = soft
     end do
   end subroutine find_soft_terms
+
+  !> How far the stiffest of the compliances gives way under forces as large as `largest` (n), where that is the only
+  !> length: all gaps are zero, before the load and under it, and no body gives way, `terms` (n). Else 0.
+  function only_length(pass, largest, terms, space) result(length)
+    type(certificate_pass), intent(in) :: pass
+    real(dp), intent(in) :: largest(:), terms(:)
+    type(point_space), intent(in) :: space
+    real(dp) :: length
+    real(dp) :: found(3)
+    integer :: k
+
+    length = 0.0_dp
+    if (allocated(pass%prescribed_motion)) return
+    found = [0.0_dp, 0.0_dp, -huge(length)]
+    do k = 1, size(terms)
+      if (.not. pass%included(k)) cycle
+      found(1) = max(found(1), abs(pass%gap(k)), terms(k))
+      found(2) = max(found(2), abs(pass%gap_under_load(k)))
+      if (pass%compliance(k)*largest(k) > 0.0_dp) found(3) = max(found(3), -pass%compliance(k)*largest(k))
+    end do
+    call space%raise(found)
+    if (found(1) > 0.0_dp .or. found(2) > -NO_SCALE*found(3) .or. .not. found(3) > -huge(length)) return
+    length = -found(3)
+  end function only_length
 
   !> `longest` (n): the largest term of a gap on the body of each point. `lengths` (n) is work space.
   subroutine find_longest(pass, space, lengths, longest)
