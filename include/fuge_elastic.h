@@ -132,8 +132,8 @@ typedef struct fuge_stress_peak {
  * the cell with the largest pressure at the surface, on rectangles and rings with Poisson's ratios
  * below 0.2 those of all cells and of equal ones next to them, and below the surface depths from a
  * quarter of the (lesser) width of a cell on.  Under hats, smooth and round punches it takes all
- * depths.  In layers it takes all depths below the centres of the
- * cells of a grid, both sides of their interfaces, and the surface.
+ * depths.  In layers it takes the depths from a quarter of a cell on below the centres of the cells
+ * of a grid, both sides of their interfaces, and the surface.
  *
  * Where the pressure of the contact is infinite so is the stress, and any number found would be one
  * of the grid: then location is FUGE_PEAK_SINGULAR, value +infinity, place that edge or tip and

@@ -149,14 +149,33 @@ contains
     if (first == last .or. any(at(first:last)%value > at(k)%value)) return
     around = [at(first), at(k), at(last)]
     if (last - first == 1) then
-      ! At a side of the layer the maximum may lie before the next depth.
-      around(2)%place(3) = 0.5_dp*(at(first)%place(3) + at(last)%place(3))
-      call evaluate(field, stack, measure, around(2:2), info)
+      call leave_side(field, stack, measure, merge(1, 3, first == k), around, info)
       if (info%failed() .or. around(2)%value <= at(k)%value) return
     end if
     call maximise(field, stack, measure, around, info)
     if (around(2)%value > best%value) best = around(2)
   end subroutine refine
+
+  !> At a side of the layer, the depth `side` of the three, the maximum may lie before the next depth: halve the way to
+  !> that until the middle one has more, or a parabola no longer rises from the side.
+  subroutine leave_side(field, stack, measure, side, around, info)
+    class(fuge_field), intent(in) :: field
+    type(layer_stack), intent(in) :: stack
+    integer, intent(in) :: measure, side
+    type(fuge_stress_peak), intent(inout) :: around(3)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: rise
+    integer :: k
+
+    do k = 1, MOST_STEPS
+      around(2)%place(3) = 0.5_dp*(around(1)%place(3) + around(3)%place(3))
+      call evaluate(field, stack, measure, around(2:2), info)
+      if (info%failed() .or. around(2)%value > around(side)%value) return
+      rise = 4.0_dp*around(2)%value - 3.0_dp*around(side)%value - around(4 - side)%value
+      if (rise <= EXCESS*around(side)%value) return
+      around(4 - side) = around(2)
+    end do
+  end subroutine leave_side
 
   !> Move the middle one of three depths, which has the largest value, to the maximum.
   subroutine maximise(field, stack, measure, around, info)
