@@ -109,7 +109,7 @@ endfunction()
 
 set(facade)
 foreach(component IN ITEMS core elastic halfplane halfspace rings layers punches fe files)
-  file(GLOB found RELATIVE "${ROOT}" "${ROOT}/src/${component}/fuge_${component}.f90"
+  file(GLOB found "${ROOT}/src/${component}/fuge_${component}.f90"
     "${ROOT}/src/bodies/${component}/fuge_${component}.f90")
   read_lines("${found}" lines)
   list(APPEND facade ${lines})

@@ -14,14 +14,14 @@ run("configure" "${CMAKE_COMMAND}" -S "${SOURCE_DIR}" -B "${SCRATCH}/build" ${se
   -DCMAKE_BUILD_TYPE=Release -DFUGE_COMPONENTS=core -DFUGE_WITH_FFTW=${WITH_FFTW} -DFUGE_BUILD_TESTS=ON
   -DCMAKE_INSTALL_LIBDIR=${LIBDIR})
 run("build" ${compiling} "${CMAKE_COMMAND}" --build "${SCRATCH}/build" --parallel 2
-  --target fuge api_dense api_solver api_header_c99 unit_core_base)
+  --target fuge api_dense api_problem api_header_c99 unit_core_base)
 run("some tests" "${CMAKE_COMMAND}" -E chdir "${SCRATCH}/build" ctest --output-on-failure
-  -R "^(api_dense|api_solver|api_header_c99|unit_core_base)$")
+  -R "^(api_dense|api_problem|api_header_c99|unit_core_base)$")
 
 # The tests of the core are there, and no others.
 run("list of tests" "${CMAKE_COMMAND}" -E chdir "${SCRATCH}/build" ctest -N)
 string(REGEX MATCHALL "unit_[a-z_]+|api_[a-z_]+" tests "${output}")
-foreach(test IN ITEMS unit_core_problem unit_core_solver_path unit_core_products unit_topics api_dense api_solver)
+foreach(test IN ITEMS unit_core_problem unit_core_solver_path unit_core_products unit_topics api_dense api_problem)
   if(NOT test IN_LIST tests)
     message(SEND_ERROR "the core's test ${test} is left out:\n${output}")
   endif()

@@ -31,7 +31,7 @@ foreach(name IN ITEMS api_grids api_halfspace example_rough example_c_ball legac
     message(SEND_ERROR "the list has ${name}, which needs FFTW")
   endif()
 endforeach()
-foreach(name IN ITEMS unit_core_halfplane unit_core_solver api_halfplane api_smooth example_punch legacy_solve
+foreach(name IN ITEMS unit_bodies_halfplane_matrix unit_core_solver api_halfplane api_smooth example_punch legacy_solve
     doc_tutorial_fortran_1 without_fftw_c without_fftw_fortran)
   if(NOT list MATCHES ": ${name}\n")
     message(SEND_ERROR "the list does not have ${name}, which needs no FFTW")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import roots_legendre
 
 _SIDES = [(-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0)]
 _CORNERS = [(0, 0), (1, 0), (0, 1), (0.5, 0), (0.5, 0.5), (0, 0.5)]
@@ -55,7 +56,7 @@ def pressure_forces(position: NDArray[np.float64], revolution: bool = False) -> 
 
 def _gauss(dimensions: int, nodes: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Three points along each coordinate; a triangle is a square with one side drawn together to a corner."""
-    root, share = np.polynomial.legendre.leggauss(3)
+    root, share = roots_legendre(3)
     if dimensions == 2:
         return np.stack([root, np.zeros(3)], axis=1), share
     u, v = np.repeat(root, 3), np.tile(root, 3)

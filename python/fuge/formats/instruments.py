@@ -94,7 +94,10 @@ def read_instrument(path: PathLike, name: str) -> Heights:
         raise failure(path, f"is {name}: its unit is {unit!r}, no length: read it with SurfaceTopography")
     scale = METRES.get(unit, 1.0)
     # Heights are masked where nothing was measured, and the first index counts along x.
-    heights = scale * np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan)
+    measured = topography.heights()
+    if hasattr(measured, "filled"):
+        measured = measured.astype(np.float64).filled(np.nan)
+    heights = scale * np.asarray(measured, dtype=np.float64)
     spacing_x, spacing_y = (scale * float(size) for size in topography.pixel_size)
     if not 0.0 < min(spacing_x, spacing_y) <= max(spacing_x, spacing_y) < np.inf:
         raise failure(path, f"is {name}: its spacings, {spacing_x:.7g} and {spacing_y:.7g}, are no lengths")

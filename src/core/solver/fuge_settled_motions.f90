@@ -18,7 +18,8 @@ module fuge_settled_motions
 
   !> Rounding below this fraction of the depth to which points are pressed is left as it is.
   real(dp), parameter :: NEGLIGIBLE = 1.0e-13_dp
-  !> Motions change by at most this many units in the last place of w/s.
+  !> Motions change by at most this many units in the last place of w/s, and gaps below as many of
+  !> their terms are rounding.
   real(dp), parameter :: ROUNDINGS = 16.0_dp
   !> A spring is too soft for gaps beside its motion below this fraction of the stiffness of the contact.
   real(dp), parameter :: SOFT = 1.0e-12_dp
@@ -34,14 +35,14 @@ contains
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     real(dp), dimension(problem%mode_count()) :: arm, change, rounding
-    real(dp), allocatable :: open(:), still_open(:)
+    real(dp), allocatable :: noise(:), open(:), still_open(:)
     type(point_space) :: space
     integer :: k, n, stat
 
     if (problem%spring_count() < 1) return
     space = operator%ranks()
     n = size(solution%force)
-    allocate (open(n), still_open(n), stat=stat)
+    allocate (noise(n), open(n), still_open(n), stat=stat)
     call require_memory(stat, 'the gaps of', n, 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
@@ -53,8 +54,11 @@ contains
     if (info%failed()) return
     open = open + operator%datum()*space%total(sum(solution%force))
     if (allocated(problem%compliance)) open = open + problem%compliance*solution%force
-    open = [(open_gap(problem, solution, k, open(k)), k=1, n)]
-    change = closing_change(problem, solution%force, open, rounding, space)
+    do k = 1, n
+      noise(k) = ROUNDINGS*epsilon(noise)*(abs(problem%gap(k)) + abs(open(k)))
+      open(k) = open_gap(problem, solution, k, open(k))
+    end do
+    change = closing_change(problem, solution%force, open, noise, rounding, space)
     do k = 1, n
       still_open(k) = merge(compensated_dot(open(k), mode_row(problem, k), change), 0.0_dp, abs(open(k)) > 0.0_dp)
     end do
@@ -137,13 +141,14 @@ contains
   end function mode_row
 
   !> The changes of motions, (m), in the ratio of their `rounding` (m), that close the `open` gaps (n) in the mean, each
-  !> with the weight of its force; 0 where that takes more than rounding.
-  function closing_change(problem, force, open, rounding, space) result(change)
+  !> with the weight of its force; 0 where that takes more than rounding, or where these gaps are no more than their own,
+  !> `noise` (n).
+  function closing_change(problem, force, open, noise, rounding, space) result(change)
     type(fuge_problem), intent(in) :: problem
-    real(dp), intent(in) :: force(:), open(:), rounding(:)
+    real(dp), intent(in) :: force(:), open(:), noise(:), rounding(:)
     type(point_space), intent(in) :: space
     real(dp) :: change(size(rounding))
-    real(dp) :: sums(size(rounding) + 2), share(size(rounding)), largest, weight
+    real(dp) :: sums(size(rounding) + 3), share(size(rounding)), largest, weight
     integer :: k
 
     change = 0.0_dp
@@ -153,11 +158,11 @@ contains
     do k = 1, size(open)
       if (.not. abs(open(k)) > 0.0_dp) cycle
       weight = abs(force(k))/largest
-      sums = sums + weight*[1.0_dp, open(k), mode_row(problem, k)]
+      sums = sums + weight*[1.0_dp, open(k), noise(k), mode_row(problem, k)]
     end do
     call space%add(sums)
-    if (.not. sums(1) > 0.0_dp) return
-    share = sums(3:)/sums(1)*rounding
+    if (.not. (sums(1) > 0.0_dp .and. abs(sums(2)) > sums(3))) return
+    share = sums(4:)/sums(1)*rounding
     if (.not. abs(sums(2)) < ROUNDINGS*sums(1)*sum(abs(share))) return
     largest = maxval(abs(share))
     share = share/largest
