@@ -5,6 +5,7 @@ module fuge_stress_field
   implicit none
   private
 
+  !> A field of stresses in a body, anywhere in it.
   type, abstract, public :: stress_field
   contains
     !> Stresses at places.
