@@ -350,7 +350,12 @@ contains
 
     self%is_general = is_general(problem)
     self%is_prescribed = .not. (self%is_general .or. problem%has_one_load())
-    if (self%is_general) call make_canonical(problem, self%canonical, info, operator%ranks(), balance)
+    ! An absent array is not passed on: gfortran computes with its bounds, which are anything.
+    if (self%is_general .and. present(balance)) then
+      call make_canonical(problem, self%canonical, info, operator%ranks(), balance)
+    else if (self%is_general) then
+      call make_canonical(problem, self%canonical, info, operator%ranks())
+    end if
     if (info%failed()) return
     call solve_by_iteration(operator, problem, self%canonical, options, monitor, self%steps, self%last, solution, info)
     ! Do not retry a solve that the operator or the monitor has ended.

@@ -96,7 +96,14 @@ contains
     else if (m > 0) then
       call orthogonalise(problem%modes, canonical, info)
     end if
-    if (.not. (info%failed() .or. canonical%plain)) call require_equilibrium(problem, canonical, info, balance)
+    if (info%failed() .or. canonical%plain) return
+    allocate (canonical%feasible_force(n), stat=stat)
+    call require_memory(stat, 'the equilibrium of', n, 'points', info)
+    call canonical%space%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    canonical%feasible_force = 0.0_dp
+    if (present(balance)) canonical%feasible_force = balance
+    call require_equilibrium(problem, canonical, info, present(balance))
   end subroutine make_canonical
 
   !> Take the gaps and the load of another checked problem of the paper's kind, if this is one of as many points; all
@@ -231,20 +238,15 @@ contains
     where (.not. scale > 0.0_dp) scale = maxval(abs(force))
   end function force_scale
 
-  !> Find forces in equilibrium, or report that there are none; `balance` (n) where they are known.
-  subroutine require_equilibrium(problem, canonical, info, balance)
+  !> Find forces in equilibrium, or report that there are none; `is_known` tells that `feasible_force` is one already.
+  subroutine require_equilibrium(problem, canonical, info, is_known)
     type(fuge_problem), intent(in) :: problem
     type(canonical_problem), intent(inout) :: canonical
     type(fuge_info), intent(inout) :: info
-    real(dp), intent(in), optional :: balance(:)
+    logical, intent(in) :: is_known
     real(dp) :: remainder(size(canonical%load)), rounding(size(canonical%load))
-    integer :: body(size(canonical%load)), j, stat
+    integer :: body(size(canonical%load)), j
 
-    allocate (canonical%feasible_force(size(canonical%gap)), stat=stat)
-    call require_memory(stat, 'the equilibrium of', size(canonical%gap), 'points', info)
-    call canonical%space%agree(info)
-    if (stat /= 0 .or. info%failed()) return
-    canonical%feasible_force = 0.0_dp
     if (size(canonical%load) < 1) return
     if (canonical%space%everywhere(all(canonical%excluded))) then
       ! Without a load too: gaps could not be counted from any point.
@@ -261,10 +263,7 @@ contains
       return
     end if
     if (any(body > 1)) call number_points(body, canonical)
-    if (present(balance)) then
-      canonical%feasible_force = balance
-      return
-    end if
+    if (is_known) return
     remainder = 0.0_dp
     do j = 1, size(body)
       if (body(j) == j) call balance_body(body == j, rounding, canonical, remainder, info)
