@@ -58,10 +58,12 @@ contains
     real(dp) :: previous_residual
     type(stall_counter) :: stalls
     integer :: cells(2), products, wrong
-    logical :: to_tolerance, confirmed, descended, descends, found, fresh, in_row, prepared, undetermined
+    logical :: to_tolerance, confirmed, descended, descends, found, fresh, in_row, in_single, prepared, undetermined
 
     prepared = settings%prepared
-    if (suits_single(operator, scene)) then
+    in_single = suits_single(operator, scene)
+    if (in_single) in_single = .not. carry_just_the_load(scene)
+    if (in_single) then
       call find_in_single(operator, settings, scene, monitor, iterate, found, info)
       if (found .or. info%failed()) return
       prepared = .false.

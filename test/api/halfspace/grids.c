@@ -207,11 +207,12 @@ static void compare_general(surface *s, grid g, double width) {
     CHECK_DONE(fuge_set_excluded(solver[k], excluded));
     CHECK_DONE(fuge_set_modes(solver[k], 2, modes, resultant));
   }
-  check_same(n, 0.0, solver[0], solver[1]);
+  const double accuracy = rows(g.ny) > 1 && g.nx > 1 ? 1e-8 : 0.0;
+  check_same(n, accuracy, solver[0], solver[1]);
   CHECK_DONE(fuge_get_force(solver[0], slope));
   CHECK_DONE(fuge_get_derivatives(solver[0], NULL, change, slope, NULL, NULL));
   CHECK_DONE(fuge_get_derivatives(solver[1], NULL, change, expected, NULL, NULL));
-  CHECK(memcmp(slope, expected, n * sizeof *slope) == 0);
+  for (int k = 0; k < n; k++) CHECK(fabs(slope[k] - expected[k]) <= accuracy);
   for (int k = 0; k < 2; k++) fuge_solver_free(&solver[k]);
   free(gap);
   free(upper);

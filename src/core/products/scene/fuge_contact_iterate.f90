@@ -19,7 +19,7 @@ module fuge_contact_iterate
     remove_rigid_part, rounding_force, start_iterate
 
   !> Gaps less rigid displacements may be rounded by this many units in the last place of their terms.
-  real(dp), parameter :: ROUNDINGS = 2.0_dp
+  real(dp), parameter, public :: RIGID_ROUNDINGS = 2.0_dp
   !> Displacements below this fraction of the gaps are rounding.
   real(dp), parameter :: NO_LENGTH = 1.0e-14_dp
 
@@ -426,7 +426,7 @@ contains
     ! As in the certificate, without the displacement by the datum, which cancels against the motion.
     if (counts_datum(scene, iterate)) offset = operator%datum()*scene%rows%total(sum(iterate%force))
     if (allocated(scene%modes)) then
-      iterate%rounding = ROUNDINGS*epsilon(offset)*largest_rigid_magnitude(scene, iterate)
+      iterate%rounding = RIGID_ROUNDINGS*epsilon(offset)*largest_rigid_magnitude(scene, iterate)
       call add_magnitudes(operator, scene, offset, iterate, elastic, info)
       if (info%failed()) return
       iterate%least_magnitude = least_over(iterate%segments, iterate%work)

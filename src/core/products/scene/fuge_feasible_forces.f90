@@ -8,7 +8,7 @@ module fuge_feasible_forces
   implicit none
   private
 
-  public :: clip_forces, make_feasible
+  public :: clip_forces, keep_resultants, make_feasible, set_feasible_forces
 
   !> A sum of n forces is rounded by at most about this many units in its last place, times the root of n.
   real(dp), parameter :: SUM_ROUNDINGS = 64.0_dp
@@ -17,11 +17,8 @@ module fuge_feasible_forces
 
 contains
 
-  !> Make the forces feasible: zero off the contact set, of the right sign, and with the resultants. Recompute their
-  !> displacements.
-  !>
-  !> With modes, forces of the wrong sign may come back with the resultants; where the set cannot carry these at all,
-  !> the points of scene%balance join it. Errors: those of the operator, FUGE_ERR_MEMORY.
+  !> Make the forces feasible, as `set_feasible_forces`, and recompute their displacements. Errors: FUGE_ERR_MEMORY,
+  !> those of the operator.
   subroutine make_feasible(operator, scene, iterate, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
@@ -29,17 +26,8 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: largest(2)
 
-    call clip_forces(scene, iterate)
-    if (allocated(scene%modes)) then
-      iterate%rigid_motion = 0.0_dp
-      call restore_resultants(scene, iterate, info)
-    else if (.not. iterate%prescribed) then
-      if (scene%has_limits()) then
-        call restore_load_within_limits(scene, iterate)
-      else
-        call restore_load(iterate)
-      end if
-    end if
+    call set_feasible_forces(scene, iterate, info)
+    if (allocated(scene%modes)) iterate%rigid_motion = 0.0_dp
     if (.not. info%failed()) call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, &
                                                        iterate%displacement, info)
     ! Forces to start from may be the rounding of those under another load.
@@ -49,6 +37,38 @@ contains
       if (largest(1) > 0.0_dp) iterate%softness = max(iterate%softness, largest(2)/largest(1))
     end if
   end subroutine make_feasible
+
+  !> Forces that are zero off the contact set, of the right sign on it, and have the resultants.
+  !>
+  !> With modes, forces of the wrong sign may come back with the resultants; where the set cannot carry these at all,
+  !> the points of scene%balance join it. Error: FUGE_ERR_MEMORY.
+  subroutine set_feasible_forces(scene, iterate, info)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+
+    call clip_forces(scene, iterate)
+    if (allocated(scene%modes)) then
+      call restore_resultants(scene, iterate, info)
+    else if (.not. iterate%prescribed) then
+      if (scene%has_limits()) then
+        call restore_load_within_limits(scene, iterate)
+      else
+        call restore_load(iterate)
+      end if
+    end if
+  end subroutine set_feasible_forces
+
+  !> Forces on the contact set, to which iterate%projection belongs, with the resultants of a scene with modes, from
+  !> which rounding has led away.
+  subroutine keep_resultants(scene, iterate)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    logical :: possible
+
+    call iterate%projection%correct_resultants(scene%modes, load_on_contact(scene, iterate), iterate%segments, &
+                                               iterate%force, possible)
+  end subroutine keep_resultants
 
   !> No forces off the contact set, nor of the wrong sign on it.
   subroutine clip_forces(scene, iterate)

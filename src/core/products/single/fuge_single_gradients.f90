@@ -1,6 +1,6 @@
 !> Projected, preconditioned conjugate gradients on a contact set in single precision.
 !>
-!> As fuge_projected_gradients for one translation. The forces and displacements that the steps add up to are in
+!> As fuge_projected_gradients. The forces and displacements that the steps add up to are in
 !> double precision; whenever the residuals get so small that the errors of the products count, one product in double
 !> precision gives the displacements anew and the residuals with them, and the directions go on (H. A. van der Vorst,
 !> Q. Ye, Residual replacement strategies for Krylov subspace iterative methods, SIAM Journal on Scientific Computing
@@ -13,7 +13,7 @@ module fuge_single_gradients
   use fuge_operator_type, only: fuge_operator
   use fuge_single_passes, only: point_pass, step_all, sum_curvature, turn_direction
   use fuge_single_preconditioner, only: single_preconditioner
-  use fuge_single_state, only: mean_in_contact, refresh, restore_sum, single_state, SINGLE_ERROR
+  use fuge_single_state, only: components, move_by, refresh, restore_sum, single_state, SINGLE_ERROR
   use fuge_status, only: fuge_info
   implicit none
   private
@@ -51,7 +51,8 @@ contains
     logical, intent(out) :: lost
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
-    real(dp) :: energy, factor, largest, least_residual, previous, ratio, step_length
+    real(dp), allocatable :: factors(:)
+    real(dp) :: energy, largest, least_residual, previous, ratio, step_length
     integer :: attempts, iteration, steps
     logical :: goes_on
 
@@ -84,13 +85,13 @@ contains
       if (steps > 0 .and. .not. to_tolerance) then
         if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
       end if
-      call preconditioner%apply(operator, scene, state, iterate, factor, energy, info)
+      call preconditioner%apply(operator, scene, state, iterate, factors, energy, info)
       lost = .not. energy > 0.0_dp
       if (lost .or. info%failed()) return
       ratio = 0.0_dp
       if (goes_on) ratio = energy/previous
       call state%point_to(scene, iterate, pass)
-      pass%factor = factor
+      pass%factors = factors
       pass%ratio = ratio
       call pass%go(turn_direction, 1)
       largest = pass%largest(1)
@@ -135,13 +136,14 @@ contains
     type(contact_iterate), intent(inout), target :: iterate
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
-    real(dp) :: energy, factor
+    real(dp), allocatable :: factors(:)
+    real(dp) :: energy
 
     if (.not. iterate%residual_norm > 0.0_dp) return
-    call preconditioner%apply(operator, scene, state, iterate, factor, energy, info)
+    call preconditioner%apply(operator, scene, state, iterate, factors, energy, info)
     if (info%failed()) return
     call state%point_to(scene, iterate, pass)
-    pass%factor = factor
+    pass%factors = factors
     call pass%go(turn_direction, 1)
     if (pass%largest(1) > 0.0_dp) iterate%least_compliance = TYPICAL_EIGENVALUE*iterate%residual_norm/pass%largest(1)
   end subroutine estimate_compliance
@@ -155,29 +157,32 @@ contains
     type(contact_iterate), intent(inout), target :: iterate
     real(dp), intent(out) :: step_length
     type(point_pass) :: pass
-    real(dp) :: curvature, mean
+    real(dp) :: means(state%motions)
+    real(dp) :: curvature
+    integer :: m
 
     step_length = 0.0_dp
+    m = state%motions
     call state%point_to(scene, iterate, pass)
-    call pass%go(sum_curvature, 3)
+    call pass%go(sum_curvature, 2 + state%columns)
     curvature = pass%total(1)
     if (.not. (curvature > 0.0_dp .and. curvature <= huge(curvature))) return
     if (iterate%lanczos%is_suspect(curvature/energy)) return
     step_length = energy/curvature
-    mean = mean_in_contact(iterate, pass%total(2))
-    state%drift = state%drift + SINGLE_ERROR*step_length*pass%largest(3) + epsilon(1.0_sp)*iterate%residual_norm
-    iterate%motion = iterate%motion - step_length*mean
+    means = step_length*components(state, iterate, pass, 2)
+    state%drift = state%drift + SINGLE_ERROR*step_length*pass%largest(2) + epsilon(1.0_sp)*iterate%residual_norm
+    call move_by(scene, -means, iterate)
     pass%factor = step_length
-    pass%shift = step_length*mean - state%offset
-    pass%motion = iterate%motion
+    pass%factors(:m) = means - state%offset(:m)
+    if (.not. allocated(state%basis)) pass%shift = sum(pass%factors(:m))
     state%is_exact = .false.
-    call pass%go(step_all, 4)
-    ! A mean left by rounding would grow.
-    state%offset = mean_in_contact(iterate, pass%total(1))
-    iterate%motion = iterate%motion + state%offset
-    iterate%residual_norm = pass%largest(2)
-    iterate%penetration = pass%largest(3)
-    state%tension = pass%largest(4)
+    call pass%go(step_all, 3 + state%columns)
+    ! A motion left by rounding would grow.
+    state%offset(:m) = components(state, iterate, pass, 3)
+    call move_by(scene, state%offset(:m), iterate)
+    iterate%residual_norm = pass%largest(1)
+    iterate%penetration = pass%largest(2)
+    state%tension = pass%largest(3)
   end subroutine step
 
 end module fuge_single_gradients

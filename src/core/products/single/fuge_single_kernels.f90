@@ -5,7 +5,8 @@ module fuge_single_kernels
   implicit none
   private
 
-  public :: add_and_sum, inner_and_sum, inner_product, move_distances, project_and_turn, step_forces
+  public :: add_and_sum, find_excess, find_force_excess, inner_and_sum, inner_product, move_distances, &
+    project_and_turn, step_forces, subtract_column
 
   !> Several partial sums and maxima are faster than one.
   integer, parameter :: LANES = 8
@@ -154,5 +155,57 @@ contains
     largest = max(largest, maxval(sizes))
     tension = -minval(least)
   end subroutine step_forces
+
+  !> y = y - factor*x.
+  pure subroutine subtract_column(n, factor, x, y)
+    integer, intent(in) :: n
+    real(sp), intent(in) :: factor, x(n)
+    real(sp), intent(inout) :: y(n)
+
+    y = y - factor*x
+  end subroutine subtract_column
+
+  !> `excess` rises to how far the distances `x` are out of their ranges.
+  pure subroutine find_excess(n, x, least, most, excess)
+    integer, intent(in) :: n
+    real(sp), intent(in) :: x(n), least(n), most(n)
+    real(sp), intent(inout) :: excess
+    real(sp) :: sizes(LANES), values(LANES)
+    integer :: i
+
+    sizes = excess
+    do i = 1, n - LANES + 1, LANES
+      values = least(i:i + LANES - 1) - x(i:i + LANES - 1)
+      sizes = merge(values, sizes, values > sizes)
+      values = x(i:i + LANES - 1) - most(i:i + LANES - 1)
+      sizes = merge(values, sizes, values > sizes)
+    end do
+    do i = n - modulo(n, LANES) + 1, n
+      sizes(1) = max(sizes(1), least(i) - x(i), x(i) - most(i))
+    end do
+    excess = maxval(sizes)
+  end subroutine find_excess
+
+  !> As `find_excess`, of forces.
+  pure subroutine find_force_excess(n, x, least, most, excess)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(n)
+    real(sp), intent(in) :: least(n), most(n)
+    real(dp), intent(inout) :: excess
+    real(dp) :: sizes(LANES), values(LANES)
+    integer :: i
+
+    sizes = excess
+    do i = 1, n - LANES + 1, LANES
+      values = real(least(i:i + LANES - 1), dp) - x(i:i + LANES - 1)
+      sizes = merge(values, sizes, values > sizes)
+      values = x(i:i + LANES - 1) - real(most(i:i + LANES - 1), dp)
+      sizes = merge(values, sizes, values > sizes)
+    end do
+    do i = n - modulo(n, LANES) + 1, n
+      sizes(1) = max(sizes(1), real(least(i), dp) - x(i), x(i) - real(most(i), dp))
+    end do
+    excess = maxval(sizes)
+  end subroutine find_force_excess
 
 end module fuge_single_kernels

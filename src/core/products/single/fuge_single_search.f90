@@ -1,22 +1,25 @@
 !> Search for the contact set of a grid with products in single precision, which take half the time: where the operator
-!> has them, for one translation, free or prescribed, and one-sided contact at all points.
+!> has them.
 !>
 !> As fuge_contact_set_search. The last forces, gaps and residuals are as exact as with double precision throughout,
 !> because the displacements are those of products in double precision, or differ from them by less than the tolerance.
 module fuge_single_search
   use fuge_contact_iterate, only: contact_iterate, is_accurate
-  use fuge_contact_scene, only: contact_scene
+  use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_feasible_forces, only: set_feasible_forces
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_operator_type, only: fuge_operator
   use fuge_search_settings, only: note_least_compliance, search_settings, MAX_STALLS, SAFETY, WRONG_ON_COARSE
   use fuge_single_gradients, only: estimate_compliance, run_single_gradients
-  use fuge_single_passes, only: exchange_points, give_displacements, point_pass, set_forces, sum_forces
+  use fuge_single_law, only: exchange_states, set_ranges
+  use fuge_single_passes, only: exchange_points, give_displacements, point_pass, set_forces, sum_forces, take_change
   use fuge_single_preconditioner, only: single_preconditioner
   use fuge_single_state, only: move_forces, refresh, restore_sum, single_state, start_displacements
   use fuge_stall_counter, only: stall_counter
   use fuge_status, only: fuge_info
+  use fuge_wrong_points, only: choose_contact
   implicit none
   private
 
@@ -40,10 +43,10 @@ contains
     logical :: suits
     real(dp) :: datum, magnitude
 
-    suits = scene%is_simple() .and. scene%rows%is_alone()
+    suits = scene%rows%is_alone() .and. .not. scene%is_unloaded()
     if (suits) suits = operator%has_single()
     ! Without a free translation equal forces have to displace the points.
-    if (suits .and. scene%prescribed) then
+    if (suits .and. scene%prescribed .and. .not. scene%absorbs_datum) then
       datum = operator%datum()
       magnitude = operator%common_magnitude(0.0_dp, 1.0_dp)
       suits = .not. (abs(datum) > 0.0_dp .or. magnitude > 0.0_dp)
@@ -70,12 +73,13 @@ contains
     logical :: confirmed, lost, possible, to_tolerance
 
     found = .false.
-    call state%start(size(scene%gap), info)
+    call state%start(scene, info)
     if (settings%prepared .and. .not. info%failed()) then
-      if (.not. are_in_range(scene, maxval(abs(scene%gap)))) return
+      if (.not. are_in_range(scene, maxval(abs(scene%gap), mask=scene%gap < OUT_OF_REACH))) return
+      call note_forces(settings, scene, .true., state, iterate)
       call refresh(operator, scene, .true., state, iterate, info)
     else if (.not. info%failed()) then
-      call start_forces(operator, scene, state, iterate, possible, info)
+      call start_forces(operator, settings, scene, state, iterate, possible, info)
       if (.not. possible) return
     end if
     call stalls%start(MAX_STALLS)
@@ -88,6 +92,7 @@ contains
       found = wrong == 0 .and. iterate%converged
       if (settings%coarse_grid) then
         found = wrong <= WRONG_ON_COARSE*real(points, dp)
+        if (found) call show_displacements(scene, state, iterate)
       else if (found) then
         call make_exact(settings, scene, state, iterate, found)
       end if
@@ -96,6 +101,7 @@ contains
         if (to_tolerance .or. iterate%converged) then
           call confirm(operator, settings, scene, total, previous_residual, state, iterate, confirmed, info)
           if (info%failed()) return
+          call preconditioner%note_changes(abs(iterate%segments%points - points))
           if (confirmed) call exchange(settings, scene, state, iterate, wrong, points, total)
           found = confirmed .and. wrong == 0
           if (found) return
@@ -106,19 +112,20 @@ contains
       to_tolerance = .false.
       call stalls%spend()
       call stalls%renew_if_fewer(wrong)
-      if (stalls%has_stalled()) return
+      if (stalls%has_stalled() .or. (points == 0 .and. .not. scene%prescribed)) return
       call preconditioner%note_changes(wrong)
       iterate%least_compliance = 0.0_dp
       previous_residual = huge(previous_residual)
-      call set_load(scene, total, state, iterate)
-      call move_forces(operator, scene, state, iterate, info)
+      call set_load(settings, scene, total, state, iterate, info)
+      if (.not. info%failed()) call move_forces(operator, scene, state, iterate, info)
     end do
   end subroutine find_in_single
 
-  !> Contact where the forces to start from push, and forces with the load there. `possible`: are the gaps in the range
-  !> of single precision?
-  subroutine start_forces(operator, scene, state, iterate, possible, info)
+  !> The contact that the forces to start from suggest, and forces with the load there. `possible`: are the gaps in the
+  !> range of single precision, and are there points to carry the load? Errors: those of the operator, FUGE_ERR_MEMORY.
+  subroutine start_forces(operator, settings, scene, state, iterate, possible, info)
     class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
     type(contact_scene), intent(in), target :: scene
     type(single_state), intent(inout), target :: state
     type(contact_iterate), intent(inout), target :: iterate
@@ -129,20 +136,50 @@ contains
     call state%point_to(scene, iterate, pass)
     call pass%go(sum_forces, 2)
     possible = are_in_range(scene, pass%largest(2))
+    if (possible .and. is_general(scene)) then
+      call choose_contact(scene, iterate)
+      if (allocated(scene%modes)) iterate%rigid_motion = 0.0_dp
+      possible = scene%prescribed .or. any(iterate%contact)
+    else if (allocated(scene%excluded)) then
+      possible = possible .and. (scene%prescribed .or. pass%total(1) > 0.0_dp)
+    end if
     if (.not. possible) return
-    call set_load(scene, pass%total(1), state, iterate)
-    call start_displacements(operator, scene, state, iterate, info)
+    call set_load(settings, scene, pass%total(1), state, iterate, info)
+    if (.not. info%failed()) call start_displacements(operator, scene, state, iterate, info)
   end subroutine start_forces
 
-  !> Are gaps of which this is the `largest` magnitude in the range of single precision?
+  !> Have points other laws than one stop and no limit, or are there modes?
+  pure function is_general(scene)
+    type(contact_scene), intent(in) :: scene
+    logical :: is_general
+
+    is_general = allocated(scene%modes) .or. allocated(scene%play)
+  end function is_general
+
+  !> Are gaps of which this is the `largest` magnitude, and plays, in the range of single precision?
   pure function are_in_range(scene, largest)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: largest
     logical :: are_in_range
 
     are_in_range = largest <= LARGEST_GAP
-    if (scene%prescribed) are_in_range = are_in_range .and. largest >= SMALLEST_APPROACH
+    if (scene%prescribed .and. .not. allocated(scene%modes)) are_in_range = are_in_range .and. &
+      largest >= SMALLEST_APPROACH
+    if (.not. allocated(scene%play)) return
+    are_in_range = are_in_range .and. .not. any(scene%play > LARGEST_GAP .and. scene%play < huge(largest))
   end function are_in_range
+
+  !> Where forces on a coarser grid are extended beyond their limits, that takes the distances.
+  subroutine show_displacements(scene, state, iterate)
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(in), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
+    type(point_pass) :: pass
+
+    if (.not. scene%has_limits()) return
+    call state%point_to(scene, iterate, pass)
+    call pass%go(give_displacements, 1)
+  end subroutine show_displacements
 
   !> Are the displacements those of a product in double precision, or is the tolerance such that the errors of single
   !> precision do not count? Then they follow from the distances.
@@ -155,26 +192,36 @@ contains
     type(point_pass) :: pass
 
     exact = state%is_exact
-    if (exact) return
+    ! The distances of points that take no part are not theirs.
+    if (exact .or. allocated(scene%excluded)) return
     exact = settings%tolerance >= LOOSE .and. state%drift <= NEGLIGIBLE*settings%tolerance*iterate%least_magnitude
     if (.not. exact) return
     call restore_sum(scene, state, iterate)
     call state%point_to(scene, iterate, pass)
-    pass%shift = state%offset
+    pass%factors = state%offset
+    if (.not. allocated(state%basis)) pass%shift = state%offset(1)
     call pass%go(give_displacements, 1)
     ! The lengths that decided may have been those of much larger forces.
     exact = pass%largest(1) >= CURRENT*state%largest
   end subroutine make_exact
 
-  !> Forces of sum 1 in the contact, in which they have the sum `total` now; equal ones if that is not positive. Where
-  !> the motion is prescribed, those that push.
-  subroutine set_load(scene, total, state, iterate)
+  !> Forces with the resultants in the contact: of sum 1, where they have the sum `total` now; equal ones if that is not
+  !> positive. Where all motions are prescribed, those that push. Error: FUGE_ERR_MEMORY.
+  subroutine set_load(settings, scene, total, state, iterate, info)
+    type(search_settings), intent(in) :: settings
     type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: total
     type(single_state), intent(inout), target :: state
     type(contact_iterate), intent(inout), target :: iterate
+    type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
 
+    if (is_general(scene)) then
+      iterate%direction = iterate%force
+      call set_feasible_forces(scene, iterate, info)
+      if (.not. info%failed()) call note_forces(settings, scene, .false., state, iterate)
+      return
+    end if
     call state%point_to(scene, iterate, pass)
     pass%factor = 0.0_dp
     if (scene%prescribed) then
@@ -185,6 +232,29 @@ contains
     pass%shift = 1.0_dp/real(size(scene%gap), dp)
     call pass%go(set_forces, 0)
   end subroutine set_load
+
+  !> What depends on feasible forces and on the contact of a general scene: its rigid motions, the ranges of forces and
+  !> distances, and with modes the tension that is rounding. The direction is the change of the forces, which were
+  !> iterate%direction before, unless they are those to `start` from.
+  subroutine note_forces(settings, scene, start, state, iterate)
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in), target :: scene
+    logical, intent(in) :: start
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
+    type(point_pass) :: pass
+
+    if (.not. is_general(scene)) return
+    call state%take_basis(scene, iterate)
+    if (allocated(scene%play)) call set_ranges(scene, state, iterate)
+    call state%point_to(scene, iterate, pass)
+    pass%before => iterate%direction
+    if (start) pass%before => iterate%force
+    call pass%go(take_change, 2)
+    if (.not. allocated(scene%modes)) return
+    state%total = pass%total(2)
+    iterate%tension_noise = SAFETY**2*settings%tolerance*pass%largest(1)
+  end subroutine note_forces
 
   !> Solve for the forces of the present contact set, as solve_on_contact_set of fuge_contact_set_search, with
   !> ten arguments: two more are the state and whether it is `lost`.
@@ -229,13 +299,22 @@ contains
     real(dp), intent(out) :: total
     type(point_pass) :: pass
 
-    call state%point_to(scene, iterate, pass)
-    pass%noise = SAFETY**2*settings%tolerance*iterate%least_magnitude
-    pass%shift = state%offset
-    call pass%go(exchange_points, 3)
-    wrong = nint(pass%total(1))
-    total = pass%total(2)
-    points = nint(pass%total(3))
+    real(dp) :: found(3), noise
+
+    noise = SAFETY**2*settings%tolerance*iterate%least_magnitude + iterate%rounding
+    if (allocated(scene%play)) then
+      call exchange_states(scene, noise, state, iterate, found)
+    else
+      call state%point_to(scene, iterate, pass)
+      pass%noise = noise
+      pass%tension = iterate%tension_noise
+      if (.not. allocated(state%basis)) pass%shift = state%offset(1)
+      call pass%go(exchange_points, 3)
+      found = [pass%total(1), pass%total(2), pass%total(3)]
+    end if
+    wrong = nint(found(1))
+    total = found(2)
+    points = nint(found(3))
   end subroutine exchange
 
   !> Confirm a contact set without wrong points, whose forces have the sum `total`, by a product in double precision;
@@ -253,8 +332,8 @@ contains
     type(fuge_info), intent(inout) :: info
 
     confirmed = .false.
-    call set_load(scene, total, state, iterate)
-    call refresh(operator, scene, .false., state, iterate, info)
+    call set_load(settings, scene, total, state, iterate, info)
+    if (.not. info%failed()) call refresh(operator, scene, .false., state, iterate, info)
     if (info%failed()) return
     confirmed = is_accurate(iterate, SAFETY*settings%tolerance) &
                 .or. .not. iterate%residual_norm < 0.5_dp*previous_residual

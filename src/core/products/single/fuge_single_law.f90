@@ -1,0 +1,186 @@
+!> The passes of a search in single precision where points may have two stops, or forces have limits: the state of each
+!> point decides from which stop its distance counts, and between which numbers its force is in contact, or its distance
+!> where it is open or at a limit.
+module fuge_single_law
+  use fuge_contact_iterate, only: contact_iterate
+  use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_kinds, only: dp, sp
+  use fuge_point_chunks, only: chunked_pass
+  use fuge_single_state, only: single_state
+  implicit none
+  private
+
+  public :: exchange_states, set_ranges
+
+  !> Where a range has no end: beyond all distances and forces, FAR included.
+  real(sp), parameter :: ENDLESS = 1.0e37_sp
+  !> Limits are rounded in single precision by less than this fraction.
+  real(dp), parameter :: SINGLE_ROUNDING = 1.0e-6_dp
+
+  !> Points on the wrong side change their state, by more than `noise` if they are not in contact. Found: how many
+  !> did, the sum of the forces in the new contact, and its points. Or the ranges of all points are set.
+  type, extends(chunked_pass) :: law_pass
+    type(contact_scene), pointer :: scene => null()
+    type(contact_iterate), pointer :: iterate => null()
+    type(single_state), pointer :: state => null()
+    real(dp) :: noise = 0.0_dp
+    logical :: sets_ranges = .false.
+  contains
+    procedure :: do_chunk
+  end type law_pass
+
+contains
+
+  !> As exchange_points of fuge_single_passes.
+  subroutine exchange_states(scene, noise, state, iterate, found)
+    type(contact_scene), intent(in), target :: scene
+    real(dp), intent(in) :: noise
+    type(single_state), intent(in), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
+    real(dp), intent(out) :: found(3)
+    type(law_pass) :: pass
+    integer :: j
+
+    call point_to(scene, state, iterate, pass)
+    pass%noise = noise
+    call pass%run(size(scene%gap), 3)
+    found = [(pass%total(j), j=1, 3)]
+  end subroutine exchange_states
+
+  !> Stops and ranges for the states of all points; distances count from the new stop.
+  subroutine set_ranges(scene, state, iterate)
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(in), target :: iterate
+    type(law_pass) :: pass
+
+    call point_to(scene, state, iterate, pass)
+    pass%sets_ranges = .true.
+    call pass%run(size(scene%gap), 0)
+  end subroutine set_ranges
+
+  subroutine point_to(scene, state, iterate, pass)
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(in), target :: state
+    type(contact_iterate), intent(in), target :: iterate
+    type(law_pass), intent(inout) :: pass
+
+    pass%scene => scene
+    pass%iterate => iterate
+    pass%state => state
+  end subroutine point_to
+
+  subroutine do_chunk(self, k, first, last)
+    class(law_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+    integer :: i
+    logical :: wrong
+
+    do i = first, last
+      if (self%sets_ranges) then
+        call set_range(self%scene, self%iterate, i, self%state)
+        cycle
+      end if
+      call exchange_point(self, i, wrong)
+      if (wrong) self%found(1, k) = self%found(1, k) + 1.0_dp
+      if (.not. self%iterate%contact(i)) cycle
+      if (.not. wrong) self%found(2, k) = self%found(2, k) + self%iterate%force(i)
+      self%found(3, k) = self%found(3, k) + 1.0_dp
+    end do
+  end subroutine do_chunk
+
+  !> Point `i` changes its state if it is `wrong`.
+  subroutine exchange_point(pass, i, wrong)
+    class(law_pass), intent(in) :: pass
+    integer, intent(in) :: i
+    logical, intent(out) :: wrong
+    real(dp) :: excess, least, most
+
+    associate (scene => pass%scene, iterate => pass%iterate, force => pass%iterate%force(i), &
+               distance => real(pass%state%distance(i), dp))
+      least = real(pass%state%least(i), dp)
+      most = real(pass%state%most(i), dp)
+      if (.not. iterate%contact(i)) then
+        wrong = max(least - distance, distance - most) > pass%noise
+        if (wrong) call return_to_stop(scene, distance < least, i, iterate)
+        return
+      end if
+      wrong = force < least + SINGLE_ROUNDING*abs(least) .or. force > most - SINGLE_ROUNDING*abs(most)
+      if (.not. wrong) return
+      call scene%find_range(i, iterate%at_upper(i), least, most)
+      excess = max(least - force, force - most)
+      wrong = excess > iterate%tension_noise
+      if (wrong) call leave_stop(scene, least, most, i, iterate)
+    end associate
+  end subroutine exchange_point
+
+  !> Point `i`, whose force is beyond its range `least` .. `most`, goes to its limit, or opens where the force changes
+  !> its sign.
+  pure subroutine leave_stop(scene, least, most, i, iterate)
+    type(contact_scene), intent(in) :: scene
+    real(dp), intent(in) :: least, most
+    integer, intent(in) :: i
+    type(contact_iterate), intent(inout) :: iterate
+
+    iterate%contact(i) = .false.
+    if (.not. allocated(iterate%limited)) return
+    iterate%limited(i) = 0
+    if (iterate%force(i) > most .and. (most > 0.0_dp .or. scene%is_tied(i))) iterate%limited(i) = 1
+    if (iterate%force(i) < least .and. (least < 0.0_dp .or. scene%is_tied(i))) iterate%limited(i) = -1
+  end subroutine leave_stop
+
+  !> Point `i` comes to the stop that it penetrates, `below` its range at the lower one, or whose limit it leaves.
+  pure subroutine return_to_stop(scene, below, i, iterate)
+    type(contact_scene), intent(in) :: scene
+    logical, intent(in) :: below
+    integer, intent(in) :: i
+    type(contact_iterate), intent(inout) :: iterate
+    logical :: at_upper
+
+    at_upper = .not. below
+    if (allocated(iterate%limited)) then
+      if (iterate%limited(i) /= 0) at_upper = iterate%limited(i) < 0
+      iterate%limited(i) = 0
+    end if
+    iterate%contact(i) = .true.
+    iterate%at_upper(i) = at_upper .and. .not. scene%is_tied(i)
+  end subroutine return_to_stop
+
+  !> The stop and the range of point `i`.
+  pure subroutine set_range(scene, iterate, i, state)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: i
+    type(single_state), intent(inout) :: state
+    real(dp) :: least, most, stop
+    integer :: limited
+
+    limited = 0
+    if (allocated(iterate%limited)) limited = iterate%limited(i)
+    stop = 0.0_dp
+    least = -real(ENDLESS, dp)
+    most = real(ENDLESS, dp)
+    if (scene%gap(i) >= OUT_OF_REACH) then
+      continue
+    else if (iterate%contact(i)) then
+      call scene%find_range(i, iterate%at_upper(i), least, most)
+      if (iterate%at_upper(i)) stop = scene%play(i)
+    else if (limited > 0) then
+      most = 0.0_dp
+    else if (limited < 0) then
+      least = 0.0_dp
+      stop = scene%play(i)
+    else
+      least = 0.0_dp
+      if (scene%has_limits()) then
+        if (.not. scene%limit(i) > 0.0_dp) least = -real(ENDLESS, dp)
+      end if
+      most = scene%play(i)
+    end if
+    state%least(i) = real(max(least, -real(ENDLESS, dp)), sp)
+    state%most(i) = real(min(most, real(ENDLESS, dp)), sp)
+    state%distance(i) = state%distance(i) + real(state%stop(i) - stop, sp)
+    state%stop(i) = stop
+  end subroutine set_range
+
+end module fuge_single_law

@@ -1,0 +1,191 @@
+!> The operator's preconditioner on a contact set, in single precision, projected to forces without resultants.
+!>
+!> With B a basis of the rigid motions on the set and U = M B, P = 1 - U (B^T U)^-1 B^T projects forces along U to those
+!> without resultants, and P M P^T is symmetric, whatever set U was computed for (doc/theory.md). So U is kept while the
+!> set changes little.
+module fuge_single_preconditioner
+  use fuge_contact_iterate, only: contact_iterate
+  use fuge_contact_scene, only: contact_scene
+  use fuge_kinds, only: dp, sp
+  use fuge_lapack, only: dgesv
+  use fuge_operator_products, only: precondition_single
+  use fuge_operator_type, only: fuge_operator
+  use fuge_set_extension, only: set_extension, wave_slopes
+  use fuge_single_passes, only: center_residuals, mark_contact, point_pass, sum_energy, sum_images, sum_with_images
+  use fuge_single_state, only: single_state
+  use fuge_status, only: fuge_info
+  implicit none
+  private
+
+  !> state%images is kept while at most this fraction of the set has changed since it was computed, and while the set
+  !> is at most that fraction of the points: residuals have to be centred then, in two more passes over the set.
+  real(dp), parameter :: CLOSE = 0.05_dp, SMALL = 0.3_dp
+
+  type, public :: single_preconditioner
+    !> Points that have changed since state%images was computed, at most; negative: it never was.
+    integer, private :: changed = -1
+    !> Rigid motions that it was computed for.
+    integer, private :: motions = 0
+    !> Nothing has changed since the last `set`.
+    logical, private :: current = .false.
+    !> Gives residuals to open points too, and forces of these to the set.
+    type(set_extension), private :: extension
+    !> B^T U on the present set, (motions, motions).
+    real(dp), allocatable, private :: products(:, :)
+  contains
+    procedure :: set
+    procedure :: note_changes
+    procedure :: apply
+  end type single_preconditioner
+
+contains
+
+  !> `points` have joined or left the contact.
+  elemental subroutine note_changes(self, points)
+    class(single_preconditioner), intent(inout) :: self
+    integer, intent(in) :: points
+
+    if (self%changed >= 0) self%changed = self%changed + points
+    self%current = self%current .and. points == 0
+  end subroutine note_changes
+
+  !> Prepare for the contact set of `iterate`. Errors: those of the operator.
+  subroutine set(self, operator, scene, state, iterate, info)
+    class(single_preconditioner), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(in), target :: iterate
+    type(fuge_info), intent(inout) :: info
+
+    if (self%current) return
+    call self%extension%set(scene%rows, operator%grid(), iterate%contact, info, wave_slopes(operator))
+    if (info%failed()) return
+    if (state%motions > 0) then
+      call set_images(self, operator, scene, state, iterate, info)
+    else
+      if (self%changed < 0) state%images = 0.0_sp
+      self%changed = 0
+    end if
+    self%current = .not. info%failed()
+  end subroutine set
+
+  !> Compute state%images, unless those of a set which is close to this one serve. Errors: those of the operator.
+  subroutine set_images(self, operator, scene, state, iterate, info)
+    class(single_preconditioner), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(in), target :: iterate
+    type(fuge_info), intent(inout) :: info
+    type(point_pass) :: pass
+    real(dp) :: points
+    integer :: j
+    logical :: serves
+
+    points = real(iterate%segments%points, dp)
+    if (self%changed > 0 .and. self%motions == state%motions .and. real(self%changed, dp) <= CLOSE*points &
+        .and. points <= SMALL*real(size(scene%gap), dp)) then
+      call find_products(self, scene, state, iterate, serves)
+      if (serves) return
+    end if
+    call state%point_to(scene, iterate, pass)
+    do j = 1, state%motions
+      pass%column = j
+      call pass%go(mark_contact, 0)
+      call self%extension%extend(state%direction, info)
+      call precondition_single(operator, state%direction, state%images(:, j), info)
+      if (info%failed()) return
+      call self%extension%collect(state%images(:, j), info)
+    end do
+    self%changed = 0
+    self%motions = state%motions
+    call find_products(self, scene, state, iterate, serves)
+  end subroutine set_images
+
+  !> B^T U on the present set; it `serves` if it is not singular, of one motion positive.
+  subroutine find_products(self, scene, state, iterate, serves)
+    class(single_preconditioner), intent(inout) :: self
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(in), target :: state
+    type(contact_iterate), intent(in), target :: iterate
+    logical, intent(out) :: serves
+    type(point_pass) :: pass
+    real(dp) :: test(state%motions)
+    integer :: i, j
+
+    call state%point_to(scene, iterate, pass)
+    call pass%go(sum_images, state%motions**2)
+    if (allocated(self%products)) deallocate (self%products)
+    allocate (self%products(state%motions, state%motions))
+    do j = 1, state%motions
+      do i = 1, state%motions
+        self%products(i, j) = pass%total(state%motions*(j - 1) + i)
+      end do
+    end do
+    test = 0.0_dp
+    call solve(self%products, test, serves)
+    if (state%motions == 1) serves = self%products(1, 1) > 0.0_dp
+  end subroutine find_products
+
+  !> right := matrix**-1 right; not `possible` where the matrix is singular.
+  subroutine solve(matrix, right, possible)
+    real(dp), intent(in) :: matrix(:, :)
+    real(dp), intent(inout) :: right(:)
+    logical, intent(out) :: possible
+    real(dp) :: copy(size(right), size(right))
+    integer :: pivots(size(right)), stat
+
+    stat = 0
+    copy = matrix
+    if (size(right) == 1) then
+      right = right/copy(1, 1)
+    else
+      call dgesv(size(right), 1, copy, size(right), pivots, right, size(right), stat)
+    end if
+    possible = stat == 0
+  end subroutine solve
+
+  !> state%work less `factors` times state%images: forces on the contact whose displacements are close to the residuals
+  !> and which have no resultants; where no motion is free the forces are state%work. `energy`: their inner product with
+  !> the residuals. Errors: those of the operator.
+  subroutine apply(self, operator, scene, state, iterate, factors, energy, info)
+    class(single_preconditioner), intent(inout) :: self
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in), target :: scene
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(in), target :: iterate
+    real(dp), allocatable, intent(out) :: factors(:)
+    real(dp), intent(out) :: energy
+    type(fuge_info), intent(inout) :: info
+    type(point_pass) :: pass
+    real(dp) :: resultants(state%motions)
+    logical :: possible
+    integer :: j
+
+    allocate (factors(state%columns), source=0.0_dp)
+    energy = 0.0_dp
+    call state%point_to(scene, iterate, pass)
+    if (self%changed > 0) then
+      call pass%go(sum_with_images, state%columns)
+      resultants = [(pass%total(j), j=1, state%motions)]
+      call solve(transpose(self%products), resultants, possible)
+      pass%factors(:state%motions) = resultants
+      pass%shift = resultants(1)
+      call pass%go(center_residuals, 0)
+    end if
+    call self%extension%extend(state%residual, info)
+    call precondition_single(operator, state%residual, state%work, info)
+    if (info%failed()) return
+    call self%extension%collect(state%work, info)
+    call pass%go(sum_energy, 1 + state%columns)
+    energy = pass%total(1)
+    if (state%motions == 0) return
+    resultants = [(pass%total(1 + j), j=1, state%motions)]
+    factors(:state%motions) = resultants
+    call solve(self%products, factors(:state%motions), possible)
+    ! The inner products of the images and the residuals are those of the basis and `work`, or zero if they are centred.
+    if (self%changed == 0) energy = energy - dot_product(factors(:state%motions), resultants)
+  end subroutine apply
+
+end module fuge_single_preconditioner
