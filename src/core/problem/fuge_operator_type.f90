@@ -44,6 +44,8 @@ module fuge_operator_type
     procedure :: apply_single => no_single
     !> f = M u in single precision.
     procedure :: precondition_single => no_single
+    !> How much a spring gives way that all points press alike.
+    procedure :: translation_spring => no_spring
     !> The size of the terms of the displacements, if it is the same for all points.
     procedure :: common_magnitude => no_common_magnitude
     !> The equal cells of a grid that the points are, in each direction.
@@ -167,8 +169,8 @@ contains
     single = self%points() < 0
   end function without_single
 
-  !> As `apply`, or as `precondition`, with errors of some 1e-7 of the largest result; called only if `has_single` is
-  !> true.
+  !> As `apply`, or as `precondition`, with errors of some 1e-7 of the largest result and without `translation_spring`;
+  !> called only if `has_single` is true.
   subroutine no_single(self, input, result, status)
     class(fuge_operator), intent(in) :: self
     real(sp), intent(in) :: input(:)
@@ -178,6 +180,15 @@ contains
     result = 0.0_sp
     status = merge(FUGE_ERR_UNSUPPORTED, FUGE_ERR_SIZE, self%points() == size(input))
   end subroutine no_single
+
+  !> The displacement of all points per resultant by a spring that is a part of A, but of no product and no
+  !> preconditioning in single precision; length per force, 0 by default.
+  function no_spring(self) result(flexibility)
+    class(fuge_operator), intent(in) :: self
+    real(dp) :: flexibility
+
+    flexibility = 0.0_dp*real(self%points(), dp)
+  end function no_spring
 
   !> What `magnitude` would give every point, where `largest` is the largest magnitude of a displacement and `total` the
   !> sum of the magnitudes of the forces; negative, as in this default, where points differ, or may.

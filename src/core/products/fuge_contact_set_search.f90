@@ -67,6 +67,7 @@ contains
       call find_in_single(operator, settings, scene, monitor, iterate, found, info)
       if (found .or. info%failed()) return
       prepared = .false.
+      iterate%projection%needs_basis = .true.
     end if
     cells = operator%grid()
     in_row = all(cells > 0) .and. any(cells == 1)

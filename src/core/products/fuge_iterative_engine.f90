@@ -44,6 +44,8 @@ module fuge_iterative_engine
   !> A mean gap up to this many units in the last place of the largest gap, times the root of the number of points, is
   !> rounding.
   real(dp), parameter :: ROUNDINGS = 4.0_dp
+  !> The tolerance of coarser grids on a spring, of that without one.
+  real(dp), parameter :: SPRING_SHARE = 0.05_dp
 
 contains
 
@@ -88,6 +90,8 @@ contains
     history%started_warm = .false.
     space = operator%ranks()
     coarse_settings%limit = iteration_limit(options, space%total_count(operator%points()) + 1)
+    ! Beside what a spring gives way, displacements by the contact are small.
+    if (operator%translation_spring() > 0.0_dp) coarse_settings%tolerance = SPRING_SHARE*coarse_settings%tolerance
     settings = coarse_settings
     settings%tolerance = options%tolerance
     settings%coarse_grid = .false.

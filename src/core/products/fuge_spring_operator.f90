@@ -11,7 +11,7 @@
 !> about one step for each.
 module fuge_spring_operator
   use fuge_constants, only: LARGEST_EXPONENT
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: dp, sp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
@@ -50,6 +50,8 @@ module fuge_spring_operator
     !> The number of the bed of each point, (n), 0 where its spring outweighs A; not allocated: all are on the first
     !> one.
     integer, allocatable :: bed_of(:)
+    !> There is one spring, and all points move alike on it.
+    logical :: is_translation = .false.
   contains
     procedure :: set_springs
     procedure :: attach
@@ -66,6 +68,11 @@ module fuge_spring_operator
     procedure :: extends_sets
     procedure :: wave_slope
     procedure :: precondition
+    procedure :: has_single
+    procedure :: apply_single
+    procedure :: precondition_single
+    procedure :: translation_spring
+    procedure :: common_magnitude
     procedure :: grid
     procedure :: free_rim
     procedure :: coarsen
@@ -287,6 +294,53 @@ contains
     slope = self%attached%wave_slope(levels)
   end function wave_slope
 
+  !> Where A has, and all points move alike on the only spring.
+  function has_single(self) result(single)
+    class(spring_operator), intent(in) :: self
+    logical :: single
+
+    single = self%translation_spring() > 0.0_dp
+    if (single) single = self%attached%has_single()
+  end function has_single
+
+  function translation_spring(self) result(flexibility)
+    class(spring_operator), intent(in) :: self
+    real(dp) :: flexibility
+
+    flexibility = 0.0_dp
+    if (self%is_translation) flexibility = self%flexibility(1)
+  end function translation_spring
+
+  !> That of A: the spring is left to who asks for `translation_spring`, as in `precondition_single`.
+  subroutine apply_single(self, input, result, status)
+    class(spring_operator), intent(in) :: self
+    real(sp), intent(in) :: input(:)
+    real(sp), intent(out) :: result(:)
+    integer, intent(out) :: status
+
+    call self%attached%apply_single(input, result, status)
+  end subroutine apply_single
+
+  subroutine precondition_single(self, input, result, status)
+    class(spring_operator), intent(in) :: self
+    real(sp), intent(in) :: input(:)
+    real(sp), intent(out) :: result(:)
+    integer, intent(out) :: status
+
+    call self%attached%precondition_single(input, result, status)
+  end subroutine precondition_single
+
+  !> Where all points move alike on the only spring.
+  function common_magnitude(self, largest, total) result(magnitude)
+    class(spring_operator), intent(in) :: self
+    real(dp), intent(in) :: largest, total
+    real(dp) :: magnitude
+
+    magnitude = -1.0_dp
+    if (self%is_translation) magnitude = self%attached%common_magnitude(largest, total)
+    if (magnitude > 0.0_dp) magnitude = magnitude + self%flexibility(1)*total
+  end function common_magnitude
+
   !> The sum over the beds of the preconditioner of A on each of them, restricted to its points.
   subroutine precondition(self, displacement, force, status)
     class(spring_operator), intent(in) :: self
@@ -468,6 +522,9 @@ contains
     logical :: on_beds
     integer :: stat
 
+    self%is_translation = allocated(self%modes) .and. .not. allocated(self%compliance)
+    if (self%is_translation) self%is_translation = size(self%modes, 2) == 1
+    if (self%is_translation) self%is_translation = .not. any(abs(self%modes - 1.0_dp) > 0.0_dp)
     if (allocated(self%beds)) deallocate (self%beds)
     if (allocated(self%bed_of)) deallocate (self%bed_of)
     if (.not. allocated(self%compliance)) return

@@ -32,6 +32,10 @@ module fuge_product_engine
   !> The tolerance on springs, of that of the solve over the excess; and none is stricter.
   real(dp), parameter :: SAFETY = 0.1_dp
   real(dp), parameter :: STRICTEST = 1.0e-13_dp
+  !> The farthest that points get, over the range of their gaps, as a guess.
+  real(dp), parameter :: USUAL_SHARE = 0.25_dp
+  !> A solve whose tolerance is at most this multiple of the one that springs need is not done again.
+  real(dp), parameter :: ENOUGH = 10.0_dp
   !> Solves of one problem with springs on motions.
   integer, parameter :: PASSES = 8
 
@@ -210,6 +214,10 @@ contains
     on_spring = problem%motions_on_springs()
     attached = on_spring
     load = problem%resultants()
+    ! The first solve is exact enough already, where it is seen how far springs give way.
+    excess = distances_alone(problem, space)/max(USUAL_SHARE*gap_range(problem, space), tiny(1.0_dp))
+    if (any(excess > 1.0_dp)) stricter%tolerance = tolerance_on_springs(options%tolerance, &
+                                                                        min(maxval(excess), MUCH_FARTHER))
     do pass = 1, PASSES
       attached = on_spring
       call springs%set_springs(problem, attached, space, info)
@@ -241,9 +249,9 @@ contains
       excess = merge(excess_motions(problem, space, solution), 0.0_dp, on_spring)
       carried = merge(load, problem%resultants() - problem%spring_loads(solution%motion), on_spring)
       if (.not. any(excess > MUCH_FARTHER .or. abs(carried - load) > options%tolerance*abs(problem%resultants()))) then
-        if (stricter%tolerance < options%tolerance .or. .not. any(excess > 1.0_dp)) exit
-        ! The equations on springs have larger terms than the certificate will see.
-        stricter%tolerance = min(max(SAFETY*options%tolerance/maxval(excess), STRICTEST), 0.5_dp*options%tolerance)
+        if (.not. any(excess > 1.0_dp)) exit
+        if (stricter%tolerance <= ENOUGH*tolerance_on_springs(options%tolerance, maxval(excess))) exit
+        stricter%tolerance = tolerance_on_springs(options%tolerance, maxval(excess))
       end if
       load = merge(problem%resultants() - problem%spring_loads(solution%motion), carried, excess > MUCH_FARTHER)
       on_spring = on_spring .and. .not. excess > MUCH_FARTHER
@@ -255,6 +263,24 @@ contains
     self%soft = problem%stiffnesses()
     where (attached) self%soft = 0.0_dp
   end subroutine solve_on_springs
+
+  !> The tolerance of a solve where springs would give way farther by `excess` than any point gets: their equations have
+  !> larger terms than the certificate will see.
+  pure function tolerance_on_springs(tolerance, excess) result(stricter)
+    real(dp), intent(in) :: tolerance, excess
+    real(dp) :: stricter
+
+    stricter = min(max(SAFETY*tolerance/excess, STRICTEST), 0.5_dp*tolerance)
+  end function tolerance_on_springs
+
+  !> The difference of the largest gap and the least one.
+  function gap_range(problem, space) result(range)
+    type(fuge_problem), intent(in) :: problem
+    type(point_space), intent(in) :: space
+    real(dp) :: range
+
+    range = space%largest(maxval(problem%gap)) - space%least(minval(problem%gap))
+  end function gap_range
 
   !> Solve on `springs`, with the resultants `load` (m).
   subroutine solve_attached(self, springs, problem, load, options, monitor, solution, info)

@@ -75,7 +75,8 @@ contains
     force = 0.0_dp
     if (all(exact) .or. .not. allocated(scene%modes)) return
     associate (rounding => load_rounding(problem, exact, solution%force, scene%rows%point_space))
-      force = iterate%projection%largest_force(iterate%segments, canonical%largest_loads(rounding/load))
+      force = iterate%projection%largest_force(scene%modes, iterate%segments, &
+                                               canonical%largest_loads(rounding/load))
     end associate
   end subroutine find_rounding
 

@@ -116,11 +116,12 @@ contains
     logical, intent(in) :: at_upper
     real(dp), intent(out) :: least, most
 
-    least = 0.0_dp
-    most = 0.0_dp
-    if (at_upper .or. self%is_tied(k)) least = -huge(least)
-    if (.not. at_upper .or. self%is_tied(k)) most = huge(most)
-    if (.not. self%has_limits()) return
+    logical :: tied
+
+    tied = self%is_tied(k)
+    least = merge(-huge(least), 0.0_dp, at_upper .or. tied)
+    most = merge(0.0_dp, huge(most), at_upper .and. .not. tied)
+    if (.not. allocated(self%limit)) return
     least = max(least, -self%limit_upper(k))
     most = min(most, self%limit(k))
   end subroutine find_range
@@ -166,8 +167,9 @@ contains
       call restrict_rows(scene%rows, coarse%rows, finest, level, scene%gap, coarse%gap, info)
       return
     end if
-    call restrict_share(scene, coarse%rows, finest, level, share, info)
+    if (allocated(scene%excluded)) call restrict_share(scene, coarse%rows, finest, level, share, info)
     if (.not. info%failed()) call restrict_means(scene, coarse%rows, scene%gap, finest, level, share, coarse%gap, info)
+    if (.not. (allocated(share) .or. info%failed())) call set_whole_cells(scene, size(coarse%gap), share, info)
     if (.not. info%failed()) call restrict_play(scene, finest, level, share, coarse, info)
     if (.not. info%failed()) call restrict_limits(scene, finest, level, share, coarse, info)
     if (.not. info%failed()) call restrict_modes(scene, finest, level, share, coarse, info)
@@ -193,18 +195,32 @@ contains
     call require_memory(stat, 'the means of', size(scene%gap), 'cells', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    taking_part = 1.0_dp
-    if (allocated(scene%excluded)) taking_part = merge(0.0_dp, 1.0_dp, scene%excluded)
+    taking_part = merge(0.0_dp, 1.0_dp, scene%excluded)
     call restrict_rows(scene%rows, rows, finest, level, taking_part, share, info)
   end subroutine restrict_share
 
-  !> `coarse`: the means of `values` (n) over the points that take part, 0 in cells without any. Error: FUGE_ERR_MEMORY.
+  !> `share`: all points of the `cells` of a coarser grid take part. Error: FUGE_ERR_MEMORY.
+  subroutine set_whole_cells(scene, cells, share, info)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: cells
+    real(dp), allocatable, intent(out) :: share(:)
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (share(cells), stat=stat)
+    call require_memory(stat, 'the means of', cells, 'cells', info)
+    call scene%rows%agree(info)
+    if (stat == 0) share = 1.0_dp
+  end subroutine set_whole_cells
+
+  !> `coarse`: the means of `values` (n) over the points that take part, 0 in cells without any; `share`, where points
+  !> are excluded, of those. Error: FUGE_ERR_MEMORY.
   subroutine restrict_means(scene, rows, values, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
     type(shared_rows), intent(in) :: rows
     real(dp), intent(in), contiguous :: values(:)
     integer, intent(in) :: finest(2), level
-    real(dp), intent(in) :: share(:)
+    real(dp), intent(in), allocatable :: share(:)
     real(dp), allocatable, intent(out) :: coarse(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: taking_part(:)
@@ -227,13 +243,20 @@ contains
   subroutine restrict_play(scene, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: finest(2), level
-    real(dp), intent(in) :: share(:)
+    real(dp), intent(in), allocatable :: share(:)
     type(contact_scene), intent(inout) :: coarse
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: endless(:), play(:)
     integer :: stat
 
     if (.not. allocated(scene%play)) return
+    if (scene%rows%everywhere(all(scene%play >= huge(1.0_dp)))) then
+      allocate (coarse%play(size(share)), stat=stat)
+      call require_memory(stat, 'the play of', size(share), 'cells', info)
+      call scene%rows%agree(info)
+      if (stat == 0) coarse%play = huge(1.0_dp)
+      return
+    end if
     allocate (play(size(scene%play)), stat=stat)
     call require_memory(stat, 'the play of', size(scene%play), 'cells', info)
     call scene%rows%agree(info)
@@ -250,7 +273,7 @@ contains
   subroutine restrict_limits(scene, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: finest(2), level
-    real(dp), intent(in) :: share(:)
+    real(dp), intent(in), allocatable :: share(:)
     type(contact_scene), intent(inout) :: coarse
     type(fuge_info), intent(inout) :: info
 
@@ -266,13 +289,20 @@ contains
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in), contiguous :: limit(:)
     integer, intent(in) :: finest(2), level
-    real(dp), intent(in) :: share(:)
+    real(dp), intent(in), allocatable :: share(:)
     type(contact_scene), intent(in) :: coarse
     real(dp), allocatable, intent(out) :: sums(:)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: endless(:), values(:)
     integer :: stat
 
+    if (scene%rows%everywhere(all(limit >= huge(1.0_dp)))) then
+      allocate (sums(size(share)), stat=stat)
+      call require_memory(stat, 'the limits of', size(share), 'cells', info)
+      call scene%rows%agree(info)
+      if (stat == 0) sums = huge(1.0_dp)
+      return
+    end if
     allocate (values(size(limit)), stat=stat)
     call require_memory(stat, 'the limits of', size(limit), 'cells', info)
     call scene%rows%agree(info)
@@ -291,7 +321,7 @@ contains
   subroutine restrict_modes(scene, finest, level, share, coarse, info)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: finest(2), level
-    real(dp), intent(in) :: share(:)
+    real(dp), intent(in), allocatable :: share(:)
     type(contact_scene), intent(inout) :: coarse
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: mode(:)

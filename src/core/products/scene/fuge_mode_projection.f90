@@ -5,6 +5,7 @@
 module fuge_mode_projection
   use fuge_contact_segments, only: contact_segments, dot_over
   use fuge_kinds, only: dp
+  use fuge_point_chunks, only: chunked_pass
   use fuge_status, only: fuge_info, require_memory
   implicit none
   private
@@ -15,13 +16,22 @@ module fuge_mode_projection
   !> The error of a resultant counts as rounding up to this many units in the last place of its terms, times the root of
   !> their number.
   real(dp), parameter :: ROUNDINGS = 8.0_dp
+  !> Where the remainder of each mode is at least this fraction of it, inner products of the modes tell the basis to
+  !> eight digits or more.
+  real(dp), parameter :: CLEARLY_INDEPENDENT = 1.0e-3_dp
+  !> Several partial sums are faster than one.
+  integer, parameter :: LANES = 4
 
   !> Set it for a contact set; it belongs to that set only.
   type, public :: mode_projection
-    !> modes*coefficients at all points, (n, m), the first `rank` columns orthonormal on the set; length.
+    !> modes*coefficients at all points, (n, m), the first `rank` columns orthonormal on the set; length. Only if
+    !> `has_basis`.
     real(dp), allocatable :: basis(:, :)
+    logical :: has_basis = .false.
+    !> Without a basis the coefficients are enough, where they can be told without one.
+    logical :: needs_basis = .true.
     !> (m, m), the first `rank` columns.
-    real(dp), allocatable, private :: coefficients(:, :)
+    real(dp), allocatable :: coefficients(:, :)
     !> Number of motions that the set resists.
     integer :: rank = 0
   contains
@@ -34,6 +44,18 @@ module fuge_mode_projection
     procedure :: largest_force
   end type mode_projection
 
+  !> Over the contact: subtracts from the force the motion with the `weights` (m), if there are any, and finds the
+  !> resultants of the force, (m), and with `terms` the sums of the magnitudes of their terms; or without a force the
+  !> inner products of the modes.
+  type, extends(chunked_pass) :: mode_pass
+    real(dp), pointer, contiguous :: modes(:, :) => null(), force(:) => null()
+    type(contact_segments), pointer :: segments => null()
+    real(dp), allocatable :: weights(:)
+    logical :: terms = .false.
+  contains
+    procedure :: do_chunk
+  end type mode_pass
+
 contains
 
   !> The basis for `modes` (n, m) on the set with these segments. Error: FUGE_ERR_MEMORY.
@@ -43,10 +65,18 @@ contains
     type(contact_segments), intent(in) :: segments
     type(fuge_info), intent(inout) :: info
     integer :: j, m, stat
+    logical :: done
 
     m = size(modes, 2)
     stat = 0
-    if (.not. allocated(self%basis)) allocate (self%basis(size(modes, 1), m), self%coefficients(m, m), stat=stat)
+    if (.not. allocated(self%coefficients)) allocate (self%coefficients(m, m), stat=stat)
+    self%has_basis = .false.
+    if (stat == 0 .and. .not. self%needs_basis) then
+      call find_coefficients(self, modes, segments, done)
+      if (done) return
+    end if
+    self%has_basis = .true.
+    if (stat == 0 .and. .not. allocated(self%basis)) allocate (self%basis(size(modes, 1), m), stat=stat)
     call require_memory(stat, 'the rigid motions of', size(modes, 1), 'points', info)
     call segments%space%agree(info)
     if (stat /= 0 .or. info%failed()) return
@@ -55,6 +85,96 @@ contains
       call append(self, modes(:, j), j, segments)
     end do
   end subroutine set
+
+  !> The coefficients from the inner products of the modes; `done` if these are clearly independent on the set.
+  subroutine find_coefficients(self, modes, segments, done)
+    class(mode_projection), intent(inout) :: self
+    real(dp), intent(in), contiguous, target :: modes(:, :)
+    type(contact_segments), intent(in), target :: segments
+    logical, intent(out) :: done
+    type(mode_pass) :: pass
+    real(dp) :: inner(size(modes, 2), size(modes, 2)), sums(size(modes, 2)**2), size_after
+    integer :: i, j, m, n
+
+    done = .true.
+    m = size(modes, 2)
+    pass%modes => modes
+    pass%segments => segments
+    call pass%run(size(modes, 1), m*m)
+    sums = [(pass%total(i), i=1, m*m)]
+    call segments%space%add(sums)
+    inner = reshape(sums, [m, m])
+    do j = 1, m
+      associate (column => self%coefficients(:, j))
+        column = 0.0_dp
+        column(j) = 1.0_dp
+        do n = 1, 2
+          do i = 1, j - 1
+            column = column - dot_product(self%coefficients(:, i), matmul(inner, column))*self%coefficients(:, i)
+          end do
+        end do
+        size_after = dot_product(column, matmul(inner, column))
+        done = size_after > CLEARLY_INDEPENDENT**2*inner(j, j)
+        if (.not. done) return
+        column = column/sqrt(size_after)
+      end associate
+    end do
+    self%rank = m
+  end subroutine find_coefficients
+
+  subroutine do_chunk(self, k, first, last)
+    class(mode_pass), intent(inout) :: self
+    integer, intent(in) :: k, first, last
+    integer :: i, j, m, s
+
+    if (last < first) return
+    m = size(self%modes, 2)
+    do s = self%segments%before(k) + 1, self%segments%before(k + 1)
+      associate (a => self%segments%first(s), b => self%segments%last(s), modes => self%modes)
+        if (.not. associated(self%force)) then
+          do j = 1, m
+            do i = 1, j
+              call add_inner(b - a + 1, modes(a:b, i), modes(a:b, j), self%found(m*(j - 1) + i, k))
+            end do
+          end do
+          cycle
+        end if
+        if (allocated(self%weights)) then
+          do j = 1, m
+            self%force(a:b) = self%force(a:b) - self%weights(j)*modes(a:b, j)
+          end do
+        end if
+        do j = 1, m
+          call add_inner(b - a + 1, modes(a:b, j), self%force(a:b), self%found(j, k))
+          if (self%terms) self%found(m + j, k) = self%found(m + j, k) + sum(abs(modes(a:b, j)*self%force(a:b)))
+        end do
+      end associate
+    end do
+    if (associated(self%force)) return
+    do j = 1, m
+      do i = j + 1, m
+        self%found(m*(j - 1) + i, k) = self%found(m*(i - 1) + j, k)
+      end do
+    end do
+  end subroutine do_chunk
+
+  !> `inner` gains the inner product of `x` and `y`.
+  pure subroutine add_inner(n, x, y, inner)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(n), y(n)
+    real(dp), intent(inout) :: inner
+    real(dp) :: partial(LANES)
+    integer :: i
+
+    partial = 0.0_dp
+    do i = 1, n - LANES + 1, LANES
+      partial = partial + x(i:i + LANES - 1)*y(i:i + LANES - 1)
+    end do
+    do i = n - modulo(n, LANES) + 1, n
+      partial(1) = partial(1) + x(i)*y(i)
+    end do
+    inner = inner + sum(partial)
+  end subroutine add_inner
 
   !> Append mode number `j` to the basis, unless it is a combination of those before it on the set.
   subroutine append(self, mode, j, segments)
@@ -147,28 +267,39 @@ contains
   !> the set can carry them, with forces of either sign.
   subroutine correct_resultants(self, modes, load, segments, force, possible)
     class(mode_projection), intent(in) :: self
-    real(dp), intent(in), contiguous :: modes(:, :)
+    real(dp), intent(in), contiguous, target :: modes(:, :)
     real(dp), intent(in) :: load(:)
-    type(contact_segments), intent(in) :: segments
-    real(dp), intent(inout), contiguous :: force(:)
+    type(contact_segments), intent(in), target :: segments
+    real(dp), intent(inout), contiguous, target :: force(:)
     logical, intent(out) :: possible
+    type(mode_pass) :: pass
     real(dp) :: missing(size(load)), terms(size(load)), factors(size(load))
-    integer :: pass
+    integer :: trial
 
-    do pass = 1, 2
-      call find_missing(modes, load, segments, force, missing, terms)
+    pass%modes => modes
+    pass%force => force
+    pass%segments => segments
+    do trial = 1, 2
+      call find_missing(pass, load, missing, terms)
       factors = 0.0_dp
       factors(:self%rank) = -matmul(missing, self%coefficients(:, :self%rank))
-      call self%subtract_on(segments, factors, force)
+      if (self%has_basis) then
+        call self%subtract_on(segments, factors, force)
+      else
+        pass%weights = matmul(self%coefficients(:, :self%rank), factors(:self%rank))
+      end if
     end do
-    call find_missing(modes, load, segments, force, missing, terms)
+    pass%terms = .true.
+    call find_missing(pass, load, missing, terms)
     possible = all(abs(missing) <= ROUNDINGS*epsilon(missing)*sqrt(real(segments%points, dp)) &
                    *max(terms, maxval(abs(load))))
   end subroutine correct_resultants
 
-  !> The largest of the least forces on the set that make resultants up to `load` (m), of any sign: a bound.
-  function largest_force(self, segments, load) result(force)
+  !> The largest of the least forces on the set that make resultants up to `load` (m) in `modes` (n, m), of any sign: a
+  !> bound.
+  function largest_force(self, modes, segments, load) result(force)
     class(mode_projection), intent(in) :: self
+    real(dp), intent(in) :: modes(:, :)
     type(contact_segments), intent(in) :: segments
     real(dp), intent(in) :: load(:)
     real(dp) :: force
@@ -179,32 +310,30 @@ contains
     factors = [(sum(load*abs(self%coefficients(:, i))), i=1, self%rank)]
     do i = 1, size(segments%first)
       do k = segments%first(i), segments%last(i)
-        force = max(force, sum(factors*abs(self%basis(k, :self%rank))))
+        if (self%has_basis) then
+          force = max(force, sum(factors*abs(self%basis(k, :self%rank))))
+        else
+          force = max(force, sum(factors*abs(matmul(modes(k, :), self%coefficients(:, :self%rank)))))
+        end if
       end do
     end do
     force = segments%space%largest(force)
   end function largest_force
 
-  !> The resultants that `force` (n) lacks, `missing`, and the magnitudes of their `terms`, (m).
-  subroutine find_missing(modes, load, segments, force, missing, terms)
-    real(dp), intent(in), contiguous :: modes(:, :), force(:)
+  !> The resultants that the force of `pass` lacks, `missing`, and the magnitudes of their `terms`, (m).
+  subroutine find_missing(pass, load, missing, terms)
+    type(mode_pass), intent(inout) :: pass
     real(dp), intent(in) :: load(:)
-    type(contact_segments), intent(in) :: segments
-    real(dp), intent(out) :: missing(:)
-    real(dp), intent(out), contiguous :: terms(:)
-    integer :: i, j, k
+    real(dp), intent(out) :: missing(:), terms(:)
+    real(dp) :: sums(merge(2, 1, pass%terms)*size(load))
+    integer :: j
 
-    terms = 0.0_dp
-    do j = 1, size(load)
-      missing(j) = load(j) - dot_over(segments, modes(:, j), force)
-      do i = 1, size(segments%first)
-        do k = segments%first(i), segments%last(i)
-          terms(j) = terms(j) + abs(modes(k, j)*force(k))
-        end do
-      end do
-    end do
-    call segments%space%add(terms)
-    terms = terms + abs(load)
+    call pass%run(size(pass%force), size(sums))
+    sums = [(pass%total(j), j=1, size(sums))]
+    call pass%segments%space%add(sums)
+    missing = load - sums(:size(load))
+    terms = abs(load)
+    if (pass%terms) terms = terms + sums(size(load) + 1:)
   end subroutine find_missing
 
 end module fuge_mode_projection

@@ -13,7 +13,7 @@ module fuge_single_gradients
   use fuge_operator_type, only: fuge_operator
   use fuge_single_passes, only: point_pass, step_all, sum_curvature, turn_direction
   use fuge_single_preconditioner, only: single_preconditioner
-  use fuge_single_state, only: components, move_by, refresh, restore_sum, single_state, SINGLE_ERROR
+  use fuge_single_state, only: components, given_way, move_by, refresh, restore_sum, single_state, SINGLE_ERROR
   use fuge_status, only: fuge_info
   implicit none
   private
@@ -158,7 +158,7 @@ contains
     real(dp), intent(out) :: step_length
     type(point_pass) :: pass
     real(dp) :: means(state%motions)
-    real(dp) :: curvature
+    real(dp) :: curvature, rise
     integer :: m
 
     step_length = 0.0_dp
@@ -166,6 +166,8 @@ contains
     call state%point_to(scene, iterate, pass)
     call pass%go(sum_curvature, 2 + state%columns)
     curvature = pass%total(1)
+    rise = given_way(scene, .false., state, iterate)
+    if (state%flexibility > 0.0_dp) curvature = curvature + rise*(rise/state%flexibility)
     if (.not. (curvature > 0.0_dp .and. curvature <= huge(curvature))) return
     if (iterate%lanczos%is_suspect(curvature/energy)) return
     step_length = energy/curvature
@@ -174,7 +176,7 @@ contains
     call move_by(scene, -means, iterate)
     pass%factor = step_length
     pass%factors(:m) = means - state%offset(:m)
-    if (.not. allocated(state%basis)) pass%shift = sum(pass%factors(:m))
+    if (.not. allocated(state%basis)) pass%shift = sum(pass%factors(:m)) - step_length*rise
     state%is_exact = .false.
     call pass%go(step_all, 3 + state%columns)
     ! A motion left by rounding would grow.

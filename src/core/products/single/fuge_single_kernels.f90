@@ -5,7 +5,7 @@ module fuge_single_kernels
   implicit none
   private
 
-  public :: add_and_sum, find_excess, find_force_excess, inner_and_sum, inner_product, move_distances, &
+  public :: add_and_sum, add_components, find_excess, find_force_excess, inner_and_sum, inner_product, move_distances, &
     project_and_turn, step_forces, subtract_column
 
   !> Several partial sums and maxima are faster than one.
@@ -30,6 +30,26 @@ contains
     end do
     inner = sum(partial)
   end function inner_product
+
+  !> `found` gains the inner products of `x` and the columns of `basis` over the points `first` .. `last`.
+  pure subroutine add_components(first, last, n, columns, x, basis, found)
+    integer, intent(in) :: first, last, n, columns
+    real(sp), intent(in) :: x(n), basis(n, columns)
+    real(dp), intent(inout) :: found(columns)
+    real(dp) :: partial(LANES)
+    integer :: i, j
+
+    do j = 1, columns
+      partial = 0.0_dp
+      do i = first, last - LANES + 1, LANES
+        partial = partial + real(x(i:i + LANES - 1), dp)*real(basis(i:i + LANES - 1, j), dp)
+      end do
+      do i = last - modulo(last - first + 1, LANES) + 1, last
+        partial(1) = partial(1) + real(x(i), dp)*real(basis(i, j), dp)
+      end do
+      found(j) = found(j) + sum(partial)
+    end do
+  end subroutine add_components
 
   !> `found` gains the inner product of `x` and `y`, the sum of `y`, and rises to the largest magnitude of `y`.
   pure subroutine inner_and_sum(n, x, y, found)

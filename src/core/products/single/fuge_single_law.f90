@@ -17,8 +17,8 @@ module fuge_single_law
   !> Limits are rounded in single precision by less than this fraction.
   real(dp), parameter :: SINGLE_ROUNDING = 1.0e-6_dp
 
-  !> Points on the wrong side change their state, by more than `noise` if they are not in contact. Found: how many
-  !> did, the sum of the forces in the new contact, and its points. Or the ranges of all points are set.
+  !> Points on the wrong side change their state, by more than `noise` if they are not in contact, and their ranges.
+  !> Found: how many did, the sum of the forces in the new contact, and its points. Or the ranges of all points are set.
   type, extends(chunked_pass) :: law_pass
     type(contact_scene), pointer :: scene => null()
     type(contact_iterate), pointer :: iterate => null()
@@ -35,7 +35,7 @@ contains
   subroutine exchange_states(scene, noise, state, iterate, found)
     type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: noise
-    type(single_state), intent(in), target :: state
+    type(single_state), intent(inout), target :: state
     type(contact_iterate), intent(inout), target :: iterate
     real(dp), intent(out) :: found(3)
     type(law_pass) :: pass
@@ -76,12 +76,16 @@ contains
     integer :: i
     logical :: wrong
 
-    do i = first, last
-      if (self%sets_ranges) then
+    if (self%sets_ranges) then
+      do i = first, last
         call set_range(self%scene, self%iterate, i, self%state)
-        cycle
-      end if
-      call exchange_point(self, i, wrong)
+      end do
+      return
+    end if
+    do i = first, last
+      wrong = may_be_wrong(self%iterate%contact(i), self%iterate%force(i), real(self%state%distance(i), dp), &
+                           real(self%state%least(i), dp), real(self%state%most(i), dp), self%noise)
+      if (wrong) call exchange_point(self, i, wrong)
       if (wrong) self%found(1, k) = self%found(1, k) + 1.0_dp
       if (.not. self%iterate%contact(i)) cycle
       if (.not. wrong) self%found(2, k) = self%found(2, k) + self%iterate%force(i)
@@ -89,28 +93,37 @@ contains
     end do
   end subroutine do_chunk
 
-  !> Point `i` changes its state if it is `wrong`.
+  !> Is the distance of a point that is not in contact out of its range `least` .. `most` by more than `noise`, or the
+  !> force of one in contact, whose range is rounded, perhaps?
+  elemental function may_be_wrong(contact, force, distance, least, most, noise) result(wrong)
+    logical, intent(in) :: contact
+    real(dp), intent(in) :: force, distance, least, most, noise
+    logical :: wrong
+
+    if (contact) then
+      wrong = force < least + SINGLE_ROUNDING*abs(least) .or. force > most - SINGLE_ROUNDING*abs(most)
+    else
+      wrong = max(least - distance, distance - most) > noise
+    end if
+  end function may_be_wrong
+
+  !> Point `i`, which may be wrong, changes its state if it is `wrong`, and its stop and its range with that.
   subroutine exchange_point(pass, i, wrong)
     class(law_pass), intent(in) :: pass
     integer, intent(in) :: i
     logical, intent(out) :: wrong
-    real(dp) :: excess, least, most
+    real(dp) :: least, most
 
-    associate (scene => pass%scene, iterate => pass%iterate, force => pass%iterate%force(i), &
-               distance => real(pass%state%distance(i), dp))
-      least = real(pass%state%least(i), dp)
-      most = real(pass%state%most(i), dp)
+    associate (scene => pass%scene, iterate => pass%iterate, force => pass%iterate%force(i))
+      wrong = .true.
       if (.not. iterate%contact(i)) then
-        wrong = max(least - distance, distance - most) > pass%noise
-        if (wrong) call return_to_stop(scene, distance < least, i, iterate)
-        return
+        call return_to_stop(scene, pass%state%distance(i) < pass%state%least(i), i, iterate)
+      else
+        call scene%find_range(i, iterate%at_upper(i), least, most)
+        wrong = max(least - force, force - most) > iterate%tension_noise
+        if (wrong) call leave_stop(scene, least, most, i, iterate)
       end if
-      wrong = force < least + SINGLE_ROUNDING*abs(least) .or. force > most - SINGLE_ROUNDING*abs(most)
-      if (.not. wrong) return
-      call scene%find_range(i, iterate%at_upper(i), least, most)
-      excess = max(least - force, force - most)
-      wrong = excess > iterate%tension_noise
-      if (wrong) call leave_stop(scene, least, most, i, iterate)
+      if (wrong) call set_range(scene, iterate, i, pass%state)
     end associate
   end subroutine exchange_point
 

@@ -9,14 +9,14 @@ module fuge_single_passes
   use fuge_contact_segments, only: contact_segments
   use fuge_kinds, only: dp, sp
   use fuge_point_chunks, only: chunked_pass
-  use fuge_single_kernels, only: add_and_sum, find_excess, find_force_excess, inner_and_sum, inner_product, &
+  use fuge_single_kernels, only: add_and_sum, add_components, find_excess, find_force_excess, inner_and_sum, &
     move_distances, project_and_turn, step_forces, subtract_column
   implicit none
   private
 
   public :: add_moves, center_residuals, exchange_points, give_displacements, mark_contact, move_rigidly, note_basis, &
     scale_forces, set_forces, settle_distances, start_distances, step_all, sum_curvature, sum_energy, &
-    sum_contact_forces, sum_forces, sum_gaps, sum_images, sum_with_images, take_change, take_displacements, &
+    sum_contact_forces, sum_direction, sum_forces, sum_gaps, sum_images, sum_with_images, take_change, take_displacements, &
     turn_direction
 
   !> The distance of points that take no part: no displacement closes it.
@@ -43,10 +43,13 @@ module fuge_single_passes
     !> The modes of the scene, (n, m), and motions in them, (m), where there are any.
     real(dp), pointer, contiguous :: modes(:, :) => null()
     real(dp), allocatable :: motions(:)
+    !> Of these the columns of the basis, (m, columns).
+    real(dp), allocatable :: coefficients(:, :)
     !> Where points may have two stops, or forces have limits: the stop from which distances count, and the range of the
     !> force of a point in contact, else of its distance.
     real(dp), pointer, contiguous :: stop(:) => null()
     real(sp), pointer, contiguous :: least(:) => null(), most(:) => null()
+    logical :: all_points = .false.
     !> Forces before a change.
     real(dp), pointer, contiguous :: before(:) => null()
     !> What a pass needs besides.
@@ -106,20 +109,20 @@ contains
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, before
     real(sp), intent(in), contiguous :: values(:)
-    integer :: i, j
+    real(dp) :: found(pass%columns)
+    integer :: i
 
     if (.not. associated(pass%basis)) then
       pass%found(before + 1, k) = sum_over_contact(pass, k, values)
       return
     end if
+    found = 0.0_dp
     do i = pass%segments%before(k) + 1, pass%segments%before(k + 1)
       associate (a => pass%segments%first(i), b => pass%segments%last(i))
-        do j = 1, pass%columns
-          pass%found(before + j, k) = pass%found(before + j, k) &
-                                      + inner_product(b - a + 1, values(a:b), pass%basis(a:b, j))
-        end do
+        call add_components(a, b, size(values), pass%columns, values, pass%basis, found)
       end associate
     end do
+    pass%found(before + 1:before + pass%columns, k) = found
   end subroutine find_components
 
   !> Subtract `factors` times the columns of the basis from the `values` of a chunk.
@@ -228,15 +231,20 @@ contains
     pass%found(:, k) = [maxval(abs(pass%force(first:last))), sum(abs(pass%force(first:last)))]
   end subroutine take_change
 
-  !> The basis in single precision, of which pass%modes is that in double precision here. Found: the largest magnitude.
+  !> The basis: the modes times the `coefficients`. Found: the largest magnitude.
   subroutine note_basis(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
-    integer :: j
+    real(dp) :: column(first:last)
+    integer :: i, j
 
-    do j = 1, size(pass%basis, 2)
-      pass%basis(first:last, j) = real(pass%modes(first:last, j), sp)
-      pass%found(1, k) = max(pass%found(1, k), maxval(abs(pass%modes(first:last, j))))
+    do j = 1, size(pass%coefficients, 2)
+      column = 0.0_dp
+      do i = 1, size(pass%coefficients, 1)
+        column = column + pass%coefficients(i, j)*pass%modes(first:last, i)
+      end do
+      pass%basis(first:last, j) = real(column, sp)
+      pass%found(1, k) = max(pass%found(1, k), maxval(abs(column)))
     end do
   end subroutine note_basis
 
@@ -351,12 +359,11 @@ contains
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
     real(dp) :: gaps(first:last)
-    real(dp) :: least, terms
+    real(dp) :: least
     real(sp) :: deepest, residuals, shift
     integer :: i
 
     least = huge(least)
-    terms = 0.0_dp
     residuals = 0.0_sp
     deepest = 0.0_sp
     shift = real(pass%shift, sp)
@@ -368,15 +375,30 @@ contains
         pass%residual(i) = pass%distance(i)
         residuals = max(residuals, abs(pass%distance(i)))
         least = min(least, abs(gaps(i)))
-        if (associated(pass%modes)) terms = max(terms, abs(pass%gap(i)) + sum(abs(pass%motions*pass%modes(i, :))))
       else
         pass%residual(i) = 0.0_sp
         deepest = max(deepest, -pass%distance(i))
       end if
     end do
     if (associated(pass%least)) call measure_excess(pass, k, first, last, deepest)
-    pass%found(:, k) = [real(residuals, dp), real(deepest, dp), -least, terms]
+    pass%found(:, k) = [real(residuals, dp), real(deepest, dp), -least, 0.0_dp]
+    if (associated(pass%modes)) call find_terms(pass, first, last, pass%found(4, k))
   end subroutine settle_distances
+
+  !> The largest sum of the magnitudes of a gap in the contact and its rigid displacements, of a chunk.
+  subroutine find_terms(pass, first, last, largest)
+    class(point_pass), intent(in) :: pass
+    integer, intent(in) :: first, last
+    real(dp), intent(out) :: largest
+    real(dp) :: terms(first:last)
+    integer :: j
+
+    terms = abs(pass%gap(first:last))
+    do j = 1, size(pass%motions)
+      terms = terms + abs(pass%motions(j)*pass%modes(first:last, j))
+    end do
+    largest = max(0.0_dp, maxval(terms, mask=pass%contact(first:last)))
+  end subroutine find_terms
 
   !> Gaps of a chunk from the lower stop, less the rigid displacements.
   subroutine rigid_gaps(pass, first, last, gaps)
@@ -442,14 +464,12 @@ contains
   subroutine sum_with_images(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
-    integer :: c, j
+    integer :: j
 
     if (last < first) return
     do j = pass%segments%before(k) + 1, pass%segments%before(k + 1)
       associate (a => pass%segments%first(j), b => pass%segments%last(j))
-        do c = 1, pass%columns
-          pass%found(c, k) = pass%found(c, k) + inner_product(b - a + 1, pass%residual(a:b), pass%images(a:b, c))
-        end do
+        call add_components(a, b, size(pass%residual), pass%columns, pass%residual, pass%images, pass%found(:, k))
       end associate
     end do
   end subroutine sum_with_images
@@ -515,6 +535,18 @@ contains
     end do
     pass%found(1, k) = real(largest, dp)
   end subroutine turn_direction
+
+  !> Found: the sum of the direction over the contact, or over `all_points`.
+  subroutine sum_direction(pass, k, first, last)
+    class(point_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+
+    if (pass%all_points) then
+      pass%found(1, k) = sum(real(pass%direction(first:last), dp))
+    else
+      pass%found(1, k) = sum_over_contact(pass, k, pass%direction)
+    end if
+  end subroutine sum_direction
 
   !> Found: the inner product of the direction and its displacements, `work`, over the contact, the largest magnitude of
   !> these, and their components.

@@ -3,6 +3,9 @@
 !> With B a basis of the rigid motions on the set and U = M B, P = 1 - U (B^T U)^-1 B^T projects forces along U to those
 !> without resultants, and P M P^T is symmetric, whatever set U was computed for (doc/theory.md). So U is kept while the
 !> set changes little.
+!>
+!> A spring on the translation, u = r (r^T f)/s for r = 1, is a part of the operator: with K = r^T U + s in the place of
+!> r^T U the same is the inverse of M^-1 + r r^T/s (M. A. Woodbury), which is not singular.
 module fuge_single_preconditioner
   use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
@@ -17,8 +20,9 @@ module fuge_single_preconditioner
   implicit none
   private
 
-  !> state%images is kept while at most this fraction of the set has changed since it was computed, and while the set
-  !> is at most that fraction of the points: residuals have to be centred then, in two more passes over the set.
+  !> state%images is kept while at most this fraction of the set has changed since it was computed, and of one motion
+  !> while the set is at most that fraction of the points: residuals have to be centred then, in two more passes over
+  !> the set.
   real(dp), parameter :: CLOSE = 0.05_dp, SMALL = 0.3_dp
 
   type, public :: single_preconditioner
@@ -61,7 +65,7 @@ contains
     if (self%current) return
     call self%extension%set(scene%rows, operator%grid(), iterate%contact, info, wave_slopes(operator))
     if (info%failed()) return
-    if (state%motions > 0) then
+    if (state%motions > 0 .or. state%flexibility > 0.0_dp) then
       call set_images(self, operator, scene, state, iterate, info)
     else
       if (self%changed < 0) state%images = 0.0_sp
@@ -84,13 +88,15 @@ contains
     logical :: serves
 
     points = real(iterate%segments%points, dp)
-    if (self%changed > 0 .and. self%motions == state%motions .and. real(self%changed, dp) <= CLOSE*points &
-        .and. points <= SMALL*real(size(scene%gap), dp)) then
+    ! With a spring the images of another set do not keep it symmetric.
+    serves = self%changed > 0 .and. self%motions == state%motions .and. .not. state%flexibility > 0.0_dp
+    serves = serves .and. real(self%changed, dp) <= CLOSE*points
+    if (serves .and. (points <= SMALL*real(size(scene%gap), dp) .or. state%motions > 1)) then
       call find_products(self, scene, state, iterate, serves)
       if (serves) return
     end if
     call state%point_to(scene, iterate, pass)
-    do j = 1, state%motions
+    do j = 1, state%columns
       pass%column = j
       call pass%go(mark_contact, 0)
       call self%extension%extend(state%direction, info)
@@ -111,22 +117,33 @@ contains
     type(contact_iterate), intent(in), target :: iterate
     logical, intent(out) :: serves
     type(point_pass) :: pass
-    real(dp) :: test(state%motions)
-    integer :: i, j
+    real(dp) :: test(columns_of(state))
+    integer :: i, j, m
 
+    m = columns_of(state)
     call state%point_to(scene, iterate, pass)
-    call pass%go(sum_images, state%motions**2)
+    call pass%go(sum_images, m**2)
     if (allocated(self%products)) deallocate (self%products)
-    allocate (self%products(state%motions, state%motions))
-    do j = 1, state%motions
-      do i = 1, state%motions
-        self%products(i, j) = pass%total(state%motions*(j - 1) + i)
+    allocate (self%products(m, m))
+    do j = 1, m
+      do i = 1, m
+        self%products(i, j) = pass%total(m*(j - 1) + i)
       end do
     end do
+    if (state%flexibility > 0.0_dp) self%products = self%products + 1.0_dp/state%flexibility
     test = 0.0_dp
     call solve(self%products, test, serves)
-    if (state%motions == 1) serves = self%products(1, 1) > 0.0_dp
+    if (m == 1) serves = self%products(1, 1) > 0.0_dp
   end subroutine find_products
+
+  !> Number of rigid motions that are free or on a spring.
+  pure function columns_of(state) result(columns)
+    type(single_state), intent(in) :: state
+    integer :: columns
+
+    columns = state%motions
+    if (state%flexibility > 0.0_dp) columns = 1
+  end function columns_of
 
   !> right := matrix**-1 right; not `possible` where the matrix is singular.
   subroutine solve(matrix, right, possible)
@@ -159,18 +176,19 @@ contains
     real(dp), intent(out) :: energy
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
-    real(dp) :: resultants(state%motions)
+    real(dp) :: resultants(columns_of(state))
     logical :: possible
-    integer :: j
+    integer :: j, m
 
     allocate (factors(state%columns), source=0.0_dp)
     energy = 0.0_dp
+    m = columns_of(state)
     call state%point_to(scene, iterate, pass)
     if (self%changed > 0) then
       call pass%go(sum_with_images, state%columns)
-      resultants = [(pass%total(j), j=1, state%motions)]
+      resultants = [(pass%total(j), j=1, m)]
       call solve(transpose(self%products), resultants, possible)
-      pass%factors(:state%motions) = resultants
+      pass%factors(:m) = resultants
       pass%shift = resultants(1)
       call pass%go(center_residuals, 0)
     end if
@@ -180,12 +198,12 @@ contains
     call self%extension%collect(state%work, info)
     call pass%go(sum_energy, 1 + state%columns)
     energy = pass%total(1)
-    if (state%motions == 0) return
-    resultants = [(pass%total(1 + j), j=1, state%motions)]
-    factors(:state%motions) = resultants
-    call solve(self%products, factors(:state%motions), possible)
+    if (m == 0) return
+    resultants = [(pass%total(1 + j), j=1, m)]
+    factors(:m) = resultants
+    call solve(self%products, factors(:m), possible)
     ! The inner products of the images and the residuals are those of the basis and `work`, or zero if they are centred.
-    if (self%changed == 0) energy = energy - dot_product(factors(:state%motions), resultants)
+    if (self%changed == 0) energy = energy - dot_product(factors(:m), resultants)
   end subroutine apply
 
 end module fuge_single_preconditioner

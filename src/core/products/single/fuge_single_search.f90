@@ -42,15 +42,19 @@ contains
     type(contact_scene), intent(in) :: scene
     logical :: suits
     real(dp) :: datum, magnitude
+    logical :: on_spring
 
     suits = scene%rows%is_alone() .and. .not. scene%is_unloaded()
     if (suits) suits = operator%has_single()
+    if (.not. suits) return
+    on_spring = operator%translation_spring() > 0.0_dp
     ! Without a free translation equal forces have to displace the points.
-    if (suits .and. scene%prescribed .and. .not. scene%absorbs_datum) then
+    if (scene%prescribed .and. .not. scene%absorbs_datum) then
       datum = operator%datum()
       magnitude = operator%common_magnitude(0.0_dp, 1.0_dp)
-      suits = .not. (abs(datum) > 0.0_dp .or. magnitude > 0.0_dp)
+      suits = .not. (abs(datum) > 0.0_dp .or. (magnitude > 0.0_dp .and. .not. on_spring))
     end if
+    if (on_spring) suits = suits .and. .not. allocated(scene%modes)
     if (suits) suits = all(operator%grid() > 1)
   end function suits_single
 
@@ -74,8 +78,11 @@ contains
 
     found = .false.
     call state%start(scene, info)
+    state%flexibility = operator%translation_spring()
+    iterate%projection%needs_basis = settings%prepared
     if (settings%prepared .and. .not. info%failed()) then
       if (.not. are_in_range(scene, maxval(abs(scene%gap), mask=scene%gap < OUT_OF_REACH))) return
+      if (allocated(scene%play)) call set_ranges(scene, state, iterate)
       call note_forces(settings, scene, .true., state, iterate)
       call refresh(operator, scene, .true., state, iterate, info)
     else if (.not. info%failed()) then
@@ -144,6 +151,7 @@ contains
       possible = possible .and. (scene%prescribed .or. pass%total(1) > 0.0_dp)
     end if
     if (.not. possible) return
+    if (allocated(scene%play)) call set_ranges(scene, state, iterate)
     call set_load(settings, scene, pass%total(1), state, iterate, info)
     if (.not. info%failed()) call start_displacements(operator, scene, state, iterate, info)
   end subroutine start_forces
@@ -215,10 +223,13 @@ contains
     type(contact_iterate), intent(inout), target :: iterate
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
+    integer :: states(2)
 
     if (is_general(scene)) then
       iterate%direction = iterate%force
+      states = counts_of_states(iterate)
       call set_feasible_forces(scene, iterate, info)
+      if (any(counts_of_states(iterate) /= states) .and. allocated(scene%play)) call set_ranges(scene, state, iterate)
       if (.not. info%failed()) call note_forces(settings, scene, .false., state, iterate)
       return
     end if
@@ -233,8 +244,17 @@ contains
     call pass%go(set_forces, 0)
   end subroutine set_load
 
-  !> What depends on feasible forces and on the contact of a general scene: its rigid motions, the ranges of forces and
-  !> distances, and with modes the tension that is rounding. The direction is the change of the forces, which were
+  !> How many points are in contact, and at limits: where feasible forces need others, they add points to the contact.
+  pure function counts_of_states(iterate) result(counts)
+    type(contact_iterate), intent(in) :: iterate
+    integer :: counts(2)
+
+    counts = [count(iterate%contact), 0]
+    if (allocated(iterate%limited)) counts(2) = count(iterate%limited /= 0)
+  end function counts_of_states
+
+  !> What depends on feasible forces and on the contact of a general scene: its rigid motions, and with modes the
+  !> tension that is rounding. The direction is the change of the forces, which were
   !> iterate%direction before, unless they are those to `start` from.
   subroutine note_forces(settings, scene, start, state, iterate)
     type(search_settings), intent(in) :: settings
@@ -246,7 +266,6 @@ contains
 
     if (.not. is_general(scene)) return
     call state%take_basis(scene, iterate)
-    if (allocated(scene%play)) call set_ranges(scene, state, iterate)
     call state%point_to(scene, iterate, pass)
     pass%before => iterate%direction
     if (start) pass%before => iterate%force
@@ -293,12 +312,11 @@ contains
   subroutine exchange(settings, scene, state, iterate, wrong, points, total)
     type(search_settings), intent(in) :: settings
     type(contact_scene), intent(in), target :: scene
-    type(single_state), intent(in), target :: state
+    type(single_state), intent(inout), target :: state
     type(contact_iterate), intent(inout), target :: iterate
     integer, intent(out) :: wrong, points
     real(dp), intent(out) :: total
     type(point_pass) :: pass
-
     real(dp) :: found(3), noise
 
     noise = SAFETY**2*settings%tolerance*iterate%least_magnitude + iterate%rounding

@@ -7,12 +7,12 @@ module fuge_single_state
   use fuge_operator_products, only: multiply, multiply_single
   use fuge_operator_type, only: fuge_operator
   use fuge_single_passes, only: add_moves, move_rigidly, note_basis, point_pass, scale_forces, settle_distances, &
-    start_distances, sum_contact_forces, sum_gaps, take_displacements
+    start_distances, sum_contact_forces, sum_direction, sum_gaps, take_displacements
   use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
-  public :: components, move_by, move_forces, refresh, restore_sum, start_displacements
+  public :: components, given_way, move_by, move_forces, refresh, restore_sum, start_displacements
 
   !> Products in single precision have errors of this fraction of their largest result.
   real(dp), parameter, public :: SINGLE_ERROR = 5.0e-7_dp
@@ -43,6 +43,8 @@ module fuge_single_state
     real(dp) :: drift = 0.0_dp
     !> The largest magnitude of a displacement, as the last whole product gave it.
     real(dp) :: largest = 0.0_dp
+    !> All points displace each other by so much per force, on a spring that is a part of the operator; 0: none.
+    real(dp) :: flexibility = 0.0_dp
     !> The sum of the magnitudes of the forces.
     real(dp) :: total = 1.0_dp
     !> The largest tension.
@@ -54,6 +56,7 @@ module fuge_single_state
   contains
     procedure :: start
     procedure :: take_basis
+    procedure :: note_total
     procedure :: point_to
   end type single_state
 
@@ -90,17 +93,38 @@ contains
     type(contact_scene), intent(in), target :: scene
     type(contact_iterate), intent(in), target :: iterate
     type(point_pass) :: pass
+    integer :: i, j
 
     if (.not. allocated(scene%modes)) return
     self%motions = iterate%projection%rank
     self%columns = max(self%motions, 1)
     self%offset = spread(0.0_dp, 1, self%columns)
     call self%point_to(scene, iterate, pass)
-    pass%modes => iterate%projection%basis
+    if (iterate%projection%has_basis) then
+      pass%modes => iterate%projection%basis(:, :self%columns)
+      pass%coefficients = reshape([((merge(1.0_dp, 0.0_dp, i == j), i=1, self%columns), j=1, self%motions)], &
+                                  [self%columns, self%motions])
+    else
+      pass%modes => scene%modes
+      pass%coefficients = iterate%projection%coefficients
+    end if
     call pass%go(note_basis, 1)
     self%peak = pass%largest(1)
     if (self%motions == 0) self%basis = 0.0_sp
   end subroutine take_basis
+
+  !> The sum of the forces, where a spring gives way to it.
+  subroutine note_total(self, scene, iterate)
+    class(single_state), intent(inout), target :: self
+    type(contact_scene), intent(in), target :: scene
+    type(contact_iterate), intent(in), target :: iterate
+    type(point_pass) :: pass
+
+    if (.not. self%flexibility > 0.0_dp) return
+    call self%point_to(scene, iterate, pass)
+    call pass%go(sum_contact_forces, 1)
+    self%total = pass%total(1)
+  end subroutine note_total
 
   !> Point a pass to the arrays, none of which may be moved while it is in use.
   subroutine point_to(self, scene, iterate, pass)
@@ -165,7 +189,7 @@ contains
     if (allocated(scene%modes)) call point_to_modes(scene, iterate%rigid_motion, pass)
     call pass%go(start_distances, 0)
     allocate (none(state%motions), source=0.0_dp)
-    call settle(operator, scene, none, state, iterate)
+    call settle(operator, scene, none, given_way(scene, .true., state, iterate), state, iterate)
   end subroutine start_displacements
 
   !> Distances of forces that have changed by state%direction, and of a new contact. Errors: those of the operator,
@@ -187,8 +211,26 @@ contains
     state%is_lost = .not. abs(pass%total(2)) <= huge(1.0_dp)
     if (state%is_lost) return
     state%drift = state%drift + SINGLE_ERROR*pass%largest(1)
-    call settle(operator, scene, components(state, iterate, pass, 1), state, iterate)
+    call settle(operator, scene, components(state, iterate, pass, 1), given_way(scene, .true., state, iterate), state, &
+                iterate)
   end subroutine move_forces
+
+  !> The displacement of the spring by the forces state%direction, at `all_points` or in the contact only.
+  function given_way(scene, all_points, state, iterate) result(displacement)
+    type(contact_scene), intent(in), target :: scene
+    logical, intent(in) :: all_points
+    type(single_state), intent(in), target :: state
+    type(contact_iterate), intent(in), target :: iterate
+    real(dp) :: displacement
+    type(point_pass) :: pass
+
+    displacement = 0.0_dp
+    if (.not. state%flexibility > 0.0_dp) return
+    call state%point_to(scene, iterate, pass)
+    pass%all_points = all_points
+    call pass%go(sum_direction, 1)
+    displacement = state%flexibility*pass%total(1)
+  end function given_way
 
   !> The motions that take up distances in the contact whose components are the totals of `pass` from number
   !> `before` + 1 on: the mean, where one translation is free; (motions).
@@ -272,7 +314,7 @@ contains
       call pass%go(take_displacements, 1 + state%columns)
       if (.not. allocated(scene%modes)) state%largest = pass%largest(1)
       means = components(state, iterate, pass, 1)
-      call settle(operator, scene, means, state, iterate)
+      call settle(operator, scene, means, 0.0_dp, state, iterate)
       if (allocated(scene%modes)) call move_displacements(scene, means, state, iterate)
       ! Distances from another motion were rounded as far as it was off.
       if (state%peak*sum(abs(means)) <= iterate%residual_norm) exit
@@ -314,19 +356,21 @@ contains
     call pass%go(move_rigidly, 1)
   end subroutine move_displacements
 
-  !> Residuals, penetration and least magnitude, where distances in the contact have the rigid motion `means`.
-  subroutine settle(operator, scene, means, state, iterate)
+  !> Residuals, penetration and least magnitude, where distances in the contact have the rigid motion `means`, and all
+  !> of them have to grow by `rise`.
+  subroutine settle(operator, scene, means, rise, state, iterate)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in), target :: scene
-    real(dp), intent(in) :: means(:)
+    real(dp), intent(in) :: means(:), rise
     type(single_state), intent(inout), target :: state
     type(contact_iterate), intent(inout), target :: iterate
     type(point_pass) :: pass
 
+    call state%note_total(scene, iterate)
     call move_by(scene, means - state%offset(:size(means)), iterate)
     state%offset = 0.0_dp
     call state%point_to(scene, iterate, pass)
-    if (.not. allocated(state%basis)) pass%shift = sum(means)
+    if (.not. allocated(state%basis)) pass%shift = sum(means) - rise
     pass%factors(:size(means)) = means
     if (allocated(scene%modes)) call point_to_modes(scene, iterate%rigid_motion, pass)
     call pass%go(settle_distances, 4)
@@ -337,7 +381,7 @@ contains
     if (iterate%segments%points > 0) iterate%least_magnitude = iterate%largest_magnitude - pass%largest(3)
     if (allocated(scene%modes)) iterate%rounding = RIGID_ROUNDINGS*epsilon(1.0_dp)*pass%largest(4)
     ! Distances are rounded as long as they are large.
-    state%drift = state%drift + epsilon(1.0_sp)*(state%peak*sum(abs(means)) + iterate%residual_norm)
+    state%drift = state%drift + epsilon(1.0_sp)*(state%peak*sum(abs(means)) + abs(rise) + iterate%residual_norm)
     if (iterate%start_error < 0.0_dp) iterate%start_error = relative_error(iterate)
   end subroutine settle
 
