@@ -58,7 +58,7 @@ contains
     real(dp) :: previous_residual
     type(stall_counter) :: stalls
     integer :: cells(2), products, wrong
-    logical :: to_tolerance, confirmed, descended, descends, found, fresh, in_row, in_single, prepared, undetermined
+    logical :: confirmed, descended, descends, found, fresh, in_row, in_single, prepared, to_tolerance, undetermined
 
     prepared = settings%prepared
     in_single = suits_single(operator, scene)

@@ -8,6 +8,7 @@ module fuge_window_confirmation
   use fuge_point_chunks, only: chunked_pass
   use fuge_search_settings, only: search_settings, SAFETY
   use fuge_status, only: fuge_info
+  use fuge_wrong_points, only: choose_contact
   implicit none
   private
 
@@ -18,6 +19,9 @@ module fuge_window_confirmation
   type, extends(chunked_pass) :: distance_pass
     real(dp), pointer, contiguous :: gap(:) => null(), displacement(:) => null()
     logical, pointer, contiguous :: contact(:) => null()
+    !> Where forces have limits: points at these, and the limits.
+    integer, pointer, contiguous :: limited(:) => null()
+    real(dp), pointer, contiguous :: limit(:) => null()
     logical :: knows_motion = .false.
     real(dp) :: motion = 0.0_dp
   contains
@@ -27,8 +31,8 @@ module fuge_window_confirmation
 contains
 
   !> Evaluate `iterate`, whose forces are those of a window and zero outside it. `confirmed`: they solve the scene, one
-  !> free translation with one-sided contact at all points, to the tolerance; otherwise they are a start. Errors: those
-  !> of the operator, FUGE_ERR_MEMORY.
+  !> free translation with one-sided contact at all points, whatever the limits of forces, to the tolerance; otherwise
+  !> they are a start. Errors: those of the operator, FUGE_ERR_MEMORY.
   subroutine confirm_window(operator, settings, scene, iterate, confirmed, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
@@ -39,11 +43,11 @@ contains
     type(distance_pass) :: pass
     real(dp) :: found(3)
 
-    confirmed = scene%is_simple() .and. .not. scene%prescribed
+    confirmed = scene%rows%everywhere(scene%fits_window()) .and. .not. scene%prescribed
     ! Where points have magnitudes of their own, the search finds them.
     if (confirmed) confirmed = operator%common_magnitude(1.0_dp, 1.0_dp) > 0.0_dp
     if (.not. confirmed) return
-    iterate%contact = iterate%force > 0.0_dp
+    call choose_contact(scene, iterate)
     call compute_displacement(operator, .false., iterate%force, iterate%displacement, info)
     if (.not. info%failed()) call iterate%segments%find(iterate%contact, info)
     confirmed = .not. info%failed() .and. iterate%segments%points > 0
@@ -51,6 +55,10 @@ contains
     pass%gap => scene%gap
     pass%displacement => iterate%displacement
     pass%contact => iterate%contact
+    if (scene%has_limits()) then
+      pass%limited => iterate%limited
+      pass%limit => scene%limit
+    end if
     call pass%run(size(scene%gap), 2)
     iterate%largest_magnitude = operator%common_magnitude(scene%rows%largest(pass%largest(2)), 1.0_dp)
     iterate%motion = scene%rows%total(pass%total(1))/real(iterate%segments%points, dp)
@@ -87,7 +95,11 @@ contains
       if (self%contact(i)) then
         largest = max(largest, abs(distance))
         least = min(least, abs(self%gap(i) - self%motion))
-      else
+      else if (.not. associated(self%limited)) then
+        deepest = max(deepest, -distance)
+      else if (self%limited(i) > 0) then
+        deepest = max(deepest, distance)
+      else if (self%limit(i) > 0.0_dp) then
         deepest = max(deepest, -distance)
       end if
     end do

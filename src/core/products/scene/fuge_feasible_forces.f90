@@ -194,14 +194,40 @@ contains
 
   !> The sums of the forces on the contact set and off it, the points of the set, and the sum of their limits.
   function sums_within_limits(scene, iterate) result(sums)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_scene), intent(in), target :: scene
+    type(contact_iterate), intent(in), target :: iterate
     real(dp) :: sums(4)
+    type(iterate_pass) :: pass
 
-    sums = [sum(iterate%force, mask=iterate%contact), sum(iterate%force, mask=.not. iterate%contact), &
-            real(count(iterate%contact), dp), sum(min(scene%limit, 1.0_dp), mask=iterate%contact)]
+    pass%scene => scene
+    pass%iterate => iterate
+    call pass%go(sum_within_limits, 4, sums)
     call iterate%segments%space%add(sums)
   end function sums_within_limits
+
+  !> Found: what sums_within_limits gives.
+  subroutine sum_within_limits(pass, k, first, last, found)
+    class(iterate_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(inout) :: found(:)
+    real(dp) :: sums(4)
+    integer :: i
+
+    if (k < 1) found = 0.0_dp
+    sums = 0.0_dp
+    associate (force => pass%iterate%force, contact => pass%iterate%contact, limit => pass%scene%limit)
+      do i = first, last
+        if (contact(i)) then
+          sums(1) = sums(1) + force(i)
+          sums(3) = sums(3) + 1.0_dp
+          sums(4) = sums(4) + min(limit(i), 1.0_dp)
+        else
+          sums(2) = sums(2) + force(i)
+        end if
+      end do
+    end associate
+    found = found + sums
+  end subroutine sum_within_limits
 
   !> The rounding of a sum of forces that is 1.
   function sum_rounding(scene) result(rounding)

@@ -16,9 +16,11 @@ module fuge_single_passes
 
   public :: add_moves, center_residuals, exchange_points, give_displacements, mark_contact, move_rigidly, note_basis, &
     scale_forces, set_forces, settle_distances, start_distances, step_all, sum_curvature, sum_energy, &
-    sum_contact_forces, sum_direction, sum_forces, sum_gaps, sum_images, sum_with_images, take_change, take_displacements, &
-    turn_direction
+    sum_contact_forces, sum_direction, sum_forces, sum_gaps, sum_images, sum_with_images, take_change, &
+    take_displacements, turn_direction
 
+  !> Points of which a column is computed in the nearest cache.
+  integer, parameter :: BLOCK_SIZE = 512
   !> The distance of points that take no part: no displacement closes it.
   real(dp), parameter, public :: FAR = 1.0e30_dp
 
@@ -49,7 +51,7 @@ module fuge_single_passes
     !> force of a point in contact, else of its distance.
     real(dp), pointer, contiguous :: stop(:) => null()
     real(sp), pointer, contiguous :: least(:) => null(), most(:) => null()
-    logical :: all_points = .false.
+    logical :: all_points = .false., needs_terms = .false.
     !> Forces before a change.
     real(dp), pointer, contiguous :: before(:) => null()
     !> What a pass needs besides.
@@ -235,17 +237,22 @@ contains
   subroutine note_basis(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
-    real(dp) :: column(first:last)
-    integer :: i, j
+    real(dp) :: column(BLOCK_SIZE), largest(BLOCK_SIZE)
+    integer :: begin, i, j, n
 
-    do j = 1, size(pass%coefficients, 2)
-      column = 0.0_dp
-      do i = 1, size(pass%coefficients, 1)
-        column = column + pass%coefficients(i, j)*pass%modes(first:last, i)
+    largest = 0.0_dp
+    do begin = first, last, BLOCK_SIZE
+      n = min(BLOCK_SIZE, last - begin + 1)
+      do j = 1, size(pass%coefficients, 2)
+        column(:n) = pass%coefficients(1, j)*pass%modes(begin:begin + n - 1, 1)
+        do i = 2, size(pass%coefficients, 1)
+          column(:n) = column(:n) + pass%coefficients(i, j)*pass%modes(begin:begin + n - 1, i)
+        end do
+        pass%basis(begin:begin + n - 1, j) = real(column(:n), sp)
+        largest(:n) = max(largest(:n), abs(column(:n)))
       end do
-      pass%basis(first:last, j) = real(column, sp)
-      pass%found(1, k) = max(pass%found(1, k), maxval(abs(column)))
     end do
+    pass%found(1, k) = maxval(largest)
   end subroutine note_basis
 
   !> Subtract the `motions` in the modes from the displacements. Found: the largest of these before.
@@ -354,7 +361,7 @@ contains
 
   !> Subtract `shift`, or `factors` times the basis, from the distances; those in the contact are the residuals, which
   !> are zero off it. Found: the largest residual, the deepest penetration, minus the least magnitude of an undeformed
-  !> gap in the contact, and where there are modes the largest sum of the magnitudes of its terms.
+  !> gap in the contact, and, if it is needed, where there are modes the largest sum of the magnitudes of its terms.
   subroutine settle_distances(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
@@ -382,7 +389,7 @@ contains
     end do
     if (associated(pass%least)) call measure_excess(pass, k, first, last, deepest)
     pass%found(:, k) = [real(residuals, dp), real(deepest, dp), -least, 0.0_dp]
-    if (associated(pass%modes)) call find_terms(pass, first, last, pass%found(4, k))
+    if (associated(pass%modes) .and. pass%needs_terms) call find_terms(pass, first, last, pass%found(4, k))
   end subroutine settle_distances
 
   !> The largest sum of the magnitudes of a gap in the contact and its rigid displacements, of a chunk.

@@ -373,13 +373,17 @@ contains
     if (.not. allocated(state%basis)) pass%shift = sum(means) - rise
     pass%factors(:size(means)) = means
     if (allocated(scene%modes)) call point_to_modes(scene, iterate%rigid_motion, pass)
+    pass%needs_terms = state%is_exact .or. .not. iterate%rounding > 0.0_dp
     call pass%go(settle_distances, 4)
     iterate%residual_norm = pass%largest(1)
+    ! Of so few points the rigid motion takes up all distances.
+    if (iterate%segments%points <= state%motions) iterate%residual_norm = 0.0_dp
     iterate%penetration = pass%largest(2)
     iterate%largest_magnitude = operator%common_magnitude(state%largest, state%total)
     iterate%least_magnitude = 0.0_dp
     if (iterate%segments%points > 0) iterate%least_magnitude = iterate%largest_magnitude - pass%largest(3)
-    if (allocated(scene%modes)) iterate%rounding = RIGID_ROUNDINGS*epsilon(1.0_dp)*pass%largest(4)
+    pass%needs_terms = pass%needs_terms .and. allocated(scene%modes)
+    if (pass%needs_terms) iterate%rounding = RIGID_ROUNDINGS*epsilon(1.0_dp)*pass%largest(4)
     ! Distances are rounded as long as they are large.
     state%drift = state%drift + epsilon(1.0_sp)*(state%peak*sum(abs(means)) + abs(rise) + iterate%residual_norm)
     if (iterate%start_error < 0.0_dp) iterate%start_error = relative_error(iterate)
