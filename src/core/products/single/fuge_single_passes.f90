@@ -38,6 +38,8 @@ module fuge_single_passes
     !> Forces that displace all points of the contact as the columns of the basis do, almost; (n, columns).
     real(sp), pointer, contiguous :: images(:, :) => null(), basis(:, :) => null()
     integer :: columns = 1
+    !> One translation at most, one stop at all points.
+    logical :: is_plain = .false.
     !> One of them.
     integer :: column = 1
     !> Of the columns: what a pass needs.
@@ -308,8 +310,12 @@ contains
     integer, intent(in) :: k, first, last
     real(dp) :: gaps(first:last)
 
-    call undeformed_gaps(pass, first, last, gaps)
-    pass%distance(first:last) = real(gaps(first:last) + pass%displacement(first:last), sp)
+    if (pass%is_plain) then
+      pass%distance(first:last) = real((pass%gap(first:last) - pass%motion) + pass%displacement(first:last), sp)
+    else
+      call undeformed_gaps(pass, first, last, gaps)
+      pass%distance(first:last) = real(gaps + pass%displacement(first:last), sp)
+    end if
     pass%found(1, k) = maxval(abs(pass%displacement(first:last)))
     call find_components(pass, k, pass%distance, 1)
   end subroutine take_displacements
@@ -365,7 +371,30 @@ contains
   subroutine settle_distances(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
-    real(dp) :: gaps(first:last)
+    real(sp) :: deepest
+    real(dp), allocatable :: gaps(:)
+
+    if (associated(pass%basis)) call subtract_rigid(pass, first, last, pass%factors, pass%distance)
+    if (associated(pass%modes) .or. associated(pass%stop)) then
+      allocate (gaps(first:last))
+      call undeformed_gaps(pass, first, last, gaps)
+      if (associated(pass%stop)) gaps = gaps + pass%stop(first:last)
+      call settle_points(pass, k, first, last, gaps, 0.0_dp)
+    else
+      call settle_points(pass, k, first, last, pass%gap(first:last), pass%motion)
+    end if
+    if (associated(pass%least)) then
+      call measure_excess(pass, k, first, last, deepest)
+      pass%found(2, k) = real(deepest, dp)
+    end if
+    if (associated(pass%modes) .and. pass%needs_terms) call find_terms(pass, first, last, pass%found(4, k))
+  end subroutine settle_distances
+
+  !> What settle_distances does at the points of a chunk, whose gaps less `motion` are undeformed.
+  subroutine settle_points(pass, k, first, last, gaps, motion)
+    class(point_pass), intent(inout) :: pass
+    integer, intent(in) :: k, first, last
+    real(dp), intent(in) :: gaps(first:last), motion
     real(dp) :: least
     real(sp) :: deepest, residuals, shift
     integer :: i
@@ -374,23 +403,19 @@ contains
     residuals = 0.0_sp
     deepest = 0.0_sp
     shift = real(pass%shift, sp)
-    if (associated(pass%basis)) call subtract_rigid(pass, first, last, pass%factors, pass%distance)
-    call rigid_gaps(pass, first, last, gaps)
     do i = first, last
       pass%distance(i) = pass%distance(i) - shift
       if (pass%contact(i)) then
         pass%residual(i) = pass%distance(i)
         residuals = max(residuals, abs(pass%distance(i)))
-        least = min(least, abs(gaps(i)))
+        least = min(least, abs(gaps(i) - motion))
       else
         pass%residual(i) = 0.0_sp
         deepest = max(deepest, -pass%distance(i))
       end if
     end do
-    if (associated(pass%least)) call measure_excess(pass, k, first, last, deepest)
-    pass%found(:, k) = [real(residuals, dp), real(deepest, dp), -least, 0.0_dp]
-    if (associated(pass%modes) .and. pass%needs_terms) call find_terms(pass, first, last, pass%found(4, k))
-  end subroutine settle_distances
+    pass%found(:3, k) = [real(residuals, dp), real(deepest, dp), -least]
+  end subroutine settle_points
 
   !> The largest sum of the magnitudes of a gap in the contact and its rigid displacements, of a chunk.
   subroutine find_terms(pass, first, last, largest)
@@ -406,16 +431,6 @@ contains
     end do
     largest = max(0.0_dp, maxval(terms, mask=pass%contact(first:last)))
   end subroutine find_terms
-
-  !> Gaps of a chunk from the lower stop, less the rigid displacements.
-  subroutine rigid_gaps(pass, first, last, gaps)
-    class(point_pass), intent(in) :: pass
-    integer, intent(in) :: first, last
-    real(dp), intent(out) :: gaps(first:)
-
-    call undeformed_gaps(pass, first, last, gaps)
-    if (associated(pass%stop)) gaps(first:last) = gaps(first:last) + pass%stop(first:last)
-  end subroutine rigid_gaps
 
   !> `excess`: how far distances of points of a chunk that are not in contact are out of their ranges, and `tension`,
   !> how far forces are in contact; none if not positive.

@@ -144,6 +144,7 @@ contains
     pass%work => self%work
     pass%images => self%images(:, :self%columns)
     pass%columns = self%columns
+    pass%is_plain = scene%is_simple()
     pass%motion = iterate%motion
     if (.not. allocated(pass%factors)) pass%factors = spread(0.0_dp, 1, self%columns)
     if (allocated(self%basis)) pass%basis => self%basis(:, :self%columns)
