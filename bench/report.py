@@ -29,7 +29,8 @@ SMALLEST_LINE = 32
 BOUNDS = ("dense", "path", "fft", "surface", "condensation")
 # Other programs that write their tables themselves, by the name of their place in the manual.
 PROGRAMS = {"accuracy": "accuracy", "graded": "graded_cells", "costs": "costs", "products_of_scenes": "scenes",
-            "steps": "load_steps", "stresses": "stresses", "rough": "rough_grids", "one_way": "structures",
+            "general_scenes": "general_scenes", "steps": "load_steps", "stresses": "stresses",
+            "rough": "rough_grids", "one_way": "structures",
             "load_cases": "load_cases", "increments": "increments", "threads": "threads",
             "threads_model": "threads_model", "layered_waves": "layered_waves",
             "layered_surfaces": "layered_surfaces", "proofs": "proofs",

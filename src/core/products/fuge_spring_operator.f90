@@ -524,12 +524,12 @@ contains
 
     self%is_translation = allocated(self%modes) .and. .not. allocated(self%compliance)
     if (self%is_translation) self%is_translation = size(self%modes, 2) == 1
-    if (self%is_translation) self%is_translation = .not. any(abs(self%modes - 1.0_dp) > 0.0_dp)
+    space = self%ranks()
+    if (self%is_translation) self%is_translation = space%everywhere(.not. any(abs(self%modes - 1.0_dp) > 0.0_dp))
     if (allocated(self%beds)) deallocate (self%beds)
     if (allocated(self%bed_of)) deallocate (self%bed_of)
     if (.not. allocated(self%compliance)) return
     if (.not. self%attached%has_preconditioner()) return
-    space = self%ranks()
     extremes = [-minval(self%compliance), maxval(self%compliance)]
     call space%raise(extremes)
     waves = wave_compliances(self%attached, space)

@@ -68,18 +68,24 @@ contains
     type(point_space) :: space
     type(basic_points) :: basic
     real(dp), dimension(size(resultant)) :: noise, rest, terms
-    logical :: found
+    logical :: found, has_limits
     integer :: iteration, points, unproven
 
     if (present(sharing)) space = sharing
     noise = epsilon(noise)*maxval(abs(resultant))
     if (present(rounding)) noise = rounding
     points = space%total_count(size(force))
-    call start_forces(modes, resultant, least, most, space, force)
+    call start_forces(modes, resultant, least, most, space, force, has_limits)
     allocate (basic%rows(size(resultant), 0), basic%force(0), basic%least(0), basic%most(0), basic%own(0))
     unproven = 0
     do iteration = 1, 20*(size(resultant) + 1) + 4*points
-      call find_remainder(modes, resultant, force, space, remainder, terms)
+      if (has_limits) then
+        call find_remainder(modes, resultant, force, space, remainder, terms)
+      else
+        ! No other points have forces.
+        remainder = resultant - matmul(basic%rows, basic%force)
+        terms = matmul(abs(basic%rows), abs(basic%force))
+      end if
       if (is_rounding(remainder, resultant, noise, terms)) exit
       ! The load may be the sum of all limits but for the rounding of such a sum.
       if (size(terms) == 1 .and. iteration == 1) then
@@ -104,17 +110,17 @@ contains
     remainder = 0.0_dp
   end subroutine find_equilibrium
 
-  !> The forces to start from: zero without limits, else an even share of the resultant.
-  subroutine start_forces(modes, resultant, least, most, space, force)
+  !> The forces to start from: zero without limits, else an even share of the resultant. `has_limits`: are there any?
+  subroutine start_forces(modes, resultant, least, most, space, force, has_limits)
     real(dp), intent(in) :: modes(:, :), resultant(:), least(:), most(:)
     type(point_space), intent(in) :: space
     real(dp), intent(out) :: force(:)
-
-    logical :: has_limits
+    logical, intent(out) :: has_limits
 
     force = 0.0_dp
     has_limits = any((least < 0.0_dp .and. least > -huge(least)) .or. (most > 0.0_dp .and. most < huge(most)))
-    if (.not. space%anywhere(has_limits)) return
+    has_limits = space%anywhere(has_limits)
+    if (.not. has_limits) return
     if (size(resultant) == 1) then
       call share_evenly(modes(:, 1), resultant(1), least, most, space, force)
     else

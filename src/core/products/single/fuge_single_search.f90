@@ -227,9 +227,12 @@ contains
 
     if (is_general(scene)) then
       iterate%direction = iterate%force
-      states = counts_of_states(iterate)
+      states = 0
+      if (allocated(scene%play)) states = counts_of_states(iterate)
       call set_feasible_forces(scene, iterate, info)
-      if (any(counts_of_states(iterate) /= states) .and. allocated(scene%play)) call set_ranges(scene, state, iterate)
+      if (allocated(scene%play)) then
+        if (any(counts_of_states(iterate) /= states)) call set_ranges(scene, state, iterate)
+      end if
       if (.not. info%failed()) call note_forces(settings, scene, .false., state, iterate)
       return
     end if

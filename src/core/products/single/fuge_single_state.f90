@@ -177,7 +177,7 @@ contains
 
     state%direction = real(iterate%force, sp)
     call multiply_single(operator, state%direction, state%work, info)
-    if (.not. info%failed()) call iterate%segments%find(iterate%contact, info)
+    if (.not. info%failed()) call find_segments(scene, iterate, info)
     if (info%failed()) return
     call state%point_to(scene, iterate, pass)
     call pass%go(sum_gaps, 1 + state%columns)
@@ -205,7 +205,7 @@ contains
 
     state%is_exact = .false.
     call multiply_single(operator, state%direction, state%work, info)
-    if (.not. info%failed()) call iterate%segments%find(iterate%contact, info)
+    if (.not. info%failed()) call find_segments(scene, iterate, info)
     if (info%failed()) return
     call state%point_to(scene, iterate, pass)
     call pass%go(add_moves, 1 + state%columns)
@@ -232,6 +232,15 @@ contains
     call pass%go(sum_direction, 1)
     displacement = state%flexibility*pass%total(1)
   end function given_way
+
+  !> The segments of the contact; with modes those for which feasible forces were found. Error: FUGE_ERR_MEMORY.
+  subroutine find_segments(scene, iterate, info)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. allocated(scene%modes)) call iterate%segments%find(iterate%contact, info)
+  end subroutine find_segments
 
   !> The motions that take up distances in the contact whose components are the totals of `pass` from number
   !> `before` + 1 on: the mean, where one translation is free; (motions).
@@ -304,7 +313,7 @@ contains
     integer :: attempt
 
     if (.not. multiplied) call multiply(operator, iterate%force, iterate%displacement, info)
-    if (.not. info%failed()) call iterate%segments%find(iterate%contact, info)
+    if (.not. info%failed()) call find_segments(scene, iterate, info)
     if (info%failed()) return
     state%is_exact = .true.
     if (allocated(scene%modes)) call take_out_motion(scene, multiplied, state, iterate)
