@@ -5,31 +5,13 @@ module fuge_single_kernels
   implicit none
   private
 
-  public :: add_and_sum, add_components, find_excess, find_force_excess, inner_and_sum, inner_product, move_distances, &
+  public :: add_and_sum, add_components, find_excess, find_force_excess, inner_and_sum, move_distances, &
     project_and_turn, step_forces, subtract_column
 
   !> Several partial sums and maxima are faster than one.
   integer, parameter :: LANES = 8
 
 contains
-
-  !> The inner product of `x` and `y`.
-  pure function inner_product(n, x, y) result(inner)
-    integer, intent(in) :: n
-    real(sp), intent(in) :: x(n), y(n)
-    real(dp) :: inner
-    real(dp) :: partial(LANES)
-    integer :: i
-
-    partial = 0.0_dp
-    do i = 1, n - LANES + 1, LANES
-      partial = partial + real(x(i:i + LANES - 1), dp)*real(y(i:i + LANES - 1), dp)
-    end do
-    do i = n - modulo(n, LANES) + 1, n
-      partial(1) = partial(1) + real(x(i), dp)*real(y(i), dp)
-    end do
-    inner = sum(partial)
-  end function inner_product
 
   !> `found` gains the inner products of `x` and the columns of `basis` over the points `first` .. `last`.
   pure subroutine add_components(first, last, n, columns, x, basis, found)
