@@ -94,7 +94,7 @@ void fuge_resolved_free(fuge_resolved **contact);
 typedef struct fuge_resolved_report {
   int nx, ny;                   /* cells along x and y; on a line ny = 1 */
   int levels;                   /* solves on the way */
-  int intervals;                /* of contact, with edges; at most 64, on an area 0 */
+  int intervals;                /* of contact, with edges; on an area 0 */
   int method;                   /* FUGE_BY_SERIES .. */
   int at_rim[4];                /* 1 where the contact reaches the left, the right, the low or the
                                    high side of y: there the bodies are taken to end.  0 on a

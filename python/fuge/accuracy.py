@@ -103,7 +103,7 @@ class ResolvedContact:
     size : Estimate
         Length, or area, of the contact.
     edges : ndarray, shape (intervals, 2)
-        Ends of the intervals of contact on a line, at most 64; none on an area; length.
+        Ends of the intervals of contact on a line; none on an area; length.
     edge_error : float
         Error of the edges; length.
     pressure_error : float

@@ -37,7 +37,7 @@ module fuge_resolved_contact_type
     real(dp) :: load = 0.0_dp, approach = 0.0_dp, tilt = 0.0_dp
     !> Largest pressure, force per length squared.
     real(dp) :: largest = 0.0_dp
-    !> On a line the ends of each interval of contact, (2, k), length, at most the first 64 of them.
+    !> On a line the ends of each interval of contact, (2, k), length.
     real(dp), allocatable :: edges(:, :)
     !> Size of the contact: the length, on an area the area, in contact.
     real(dp) :: size = 0.0_dp
