@@ -146,7 +146,8 @@ class ResolvedContact:
         """Pressures of the cells, in the shape of the forces; force per length^2."""
         if self.force.ndim == 1:
             return self.force / self.width_x
-        return self.force / np.multiply.outer(self.width_y, self.width_x)
+        areas: NDArray[np.float64] = np.multiply.outer(self.width_y, self.width_x)
+        return self.force / areas
 
     def __repr__(self) -> str:
         cells = " x ".join(str(n) for n in reversed(self.force.shape))

@@ -364,7 +364,7 @@ class Results(unittest.TestCase):
             self.assertEqual(len(text.splitlines()), 1)
             self.assertLess(len(text), 200)
             self.assertRegex(text, r"^<ResolvedContact: \d.* cells.*, load .*, error \d\.\de[-+]\d\d, .* s>$")
-        self.assertRegex(repr(self.area), rf"{self.area.x.size} x {self.area.y.size} equal cells")
+        self.assertRegex(repr(self.area), rf"{self.area.x.size} x {self.area.y.size} cells, by a series")
         self.assertIn(f"load {LOAD:.6g}", repr(self.line))
 
     def test_pickles(self):
