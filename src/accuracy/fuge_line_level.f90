@@ -131,14 +131,16 @@ contains
     type(line_level), intent(in) :: level
     logical :: is_resolved
     real(dp) :: in_few
+    logical :: touches(size(level%solution%force))
     integer :: first, last
 
     in_few = 0.0_dp
     associate (force => level%solution%force)
-      call next_run(force > 0.0_dp, 1, first, last)
+      touches = force > 0.0_dp
+      call next_run(touches, 1, first, last)
       do while (first <= size(force))
         if (last - first < FEWEST_IN_CONTACT - 1) in_few = in_few + sum(force(first:last))
-        call next_run(force > 0.0_dp, last + 1, first, last)
+        call next_run(touches, last + 1, first, last)
       end do
       is_resolved = in_few <= 0.5_dp*sum(force)
     end associate

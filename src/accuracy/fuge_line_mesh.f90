@@ -70,14 +70,16 @@ contains
     type(line_mesh), intent(in) :: mesh
     real(dp), intent(in) :: force(:)
     real(dp), allocatable :: intervals(:, :)
-    integer :: first, last
+    logical :: touches(0:size(force))
+    integer :: first, last, k
 
-    allocate (intervals(2, 0))
-    call next_run(force > 0.0_dp, 1, first, last)
-    do while (first <= size(force))
-      intervals = reshape([intervals, end_of_contact(mesh, force, first, last, 1), &
-                           end_of_contact(mesh, force, last, first, -1)], [2, size(intervals, 2) + 1])
-      call next_run(force > 0.0_dp, last + 1, first, last)
+    touches(0) = .false.
+    touches(1:) = force > 0.0_dp
+    allocate (intervals(2, count(touches(1:) .and. .not. touches(:size(force) - 1))))
+    last = 0
+    do k = 1, size(intervals, 2)
+      call next_run(touches(1:), last + 1, first, last)
+      intervals(:, k) = [end_of_contact(mesh, force, first, last, 1), end_of_contact(mesh, force, last, first, -1)]
     end do
   end function contact_intervals
 
