@@ -7,7 +7,7 @@ module fuge_area_accuracy
   use fuge_level_history, only: area_difference, level_history, next_growth, ORDER_AT_JUMPS, SMOOTH_ORDER
   use fuge_number_text, only: text
   use fuge_pressing_type, only: check_extent, check_pressing, fuge_pressing, warn_of_accuracy
-  use fuge_resolved_contact_type, only: fuge_resolved_contact, FUGE_BY_EQUAL_CELLS, FUGE_BY_SERIES
+  use fuge_resolved_contact_type, only: fuge_resolved_contact, FUGE_BY_EQUAL_CELLS
   use fuge_round_contact_type, only: fuge_round_contact
   use fuge_round_series, only: give_round_series, solve_by_round_series
   use fuge_status, only: fuge_info, report, FUGE_ERR_MEMORY, FUGE_ERR_UNSUPPORTED
@@ -49,8 +49,8 @@ contains
   !> The rectangle is the body: where the contact reaches a side, `contact%at_rim` tells so, and the body is taken to end
   !> there. `gap` is the initial gap; `lower` < `upper`, length; `pressing` as described there. Out: `contact`. Round and
   !> smooth bodies in one disc of contact are solved by a series; else grids of equal cells by FFT become finer until the
-  !> estimated error is reached. A feature of the gap that none of the samples
-  !> meets can be missed (doc/tutorial_accuracy.md has how often the estimates held).
+  !> estimated error is reached. A feature of the gap that none of the samples meets can be missed
+  !> (doc/tutorial_accuracy.md has how often the estimates held).
   !>
   !> `info` is that of the last solve, or FUGE_WARN_ACCURACY with what was reached, if most_cells, most_seconds or the
   !> memory ended the search. Errors, `contact` untouched: FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH unless lower < upper,
@@ -64,7 +64,6 @@ contains
     type(fuge_resolved_contact), intent(inout) :: contact
     type(fuge_info), intent(out) :: info
     type(area_search) :: search
-    type(fuge_resolved_contact) :: found
     logical :: reached
 
     call search%history%begin()
@@ -74,20 +73,16 @@ contains
     if (.not. info%failed() .and. allocated(pressing%moment)) &
       call report(info, FUGE_ERR_UNSUPPORTED, 'a moment is for lines: an area only approaches')
     if (info%failed()) return
-    call take_series(gap, lower, upper, pressing, search, found, reached, info)
-    if (info%failed()) return
-    if (reached) then
-      contact = found
-      return
-    end if
+    call take_series(gap, lower, upper, pressing, search, contact, reached, info)
+    if (info%failed() .or. reached) return
     search%level%lower = lower
     search%level%upper = upper
-    search%level%cells = first_grid(upper - lower, most_cells(pressing))
+    search%level%cells = first_grid(upper - lower, pressing%cells_allowed(DEFAULT_MOST_CELLS))
     call refine(gap, pressing, search, info)
     if (info%failed()) return
-    call give_level(pressing, search, found)
-    call warn_of_accuracy(found%pressure_error, pressing%accuracy, search%obstacle, info)
-    contact = found
+    contact = fuge_resolved_contact()
+    call give_level(pressing, search, contact)
+    call warn_of_accuracy(contact%pressure_error, pressing%accuracy, search%obstacle, info)
   end subroutine fuge_solve_area
 
   !> Solve by a series, if the bodies are round; `reached` then.
@@ -109,11 +104,8 @@ contains
     if (info%failed()) return
     reached = round%pressure_error <= pressing%accuracy
     if (.not. reached) return
+    call search%history%give_only_level(size(series%coefficients()), round)
     contact = round
-    call search%history%add(size(series%coefficients()), FUGE_BY_SERIES, contact%approach, contact%largest, contact%size)
-    contact%levels = search%history%levels
-    contact%levels(1)%pressure_error = contact%pressure_error
-    contact%levels(1)%approach_error = contact%approach_error
   end subroutine take_series
 
   !> Cells of the first grid, nearly square ones, on a rectangle with these `sides`.
@@ -142,7 +134,8 @@ contains
     do
       call solve_area_level(gap, pressing, search%level, trial)
       if (trial%status == FUGE_ERR_MEMORY .and. allocated(before%gap)) then
-        search%obstacle = 'there is no memory for '//text(search%level%cells(1))//' x '//text(search%level%cells(2))//' cells'
+        search%obstacle = 'there is no memory for '//text(search%level%cells(1))//' x ' &
+                          //text(search%level%cells(2))//' cells'
         search%level = before
         return
       end if
@@ -155,7 +148,7 @@ contains
         if (info%failed() .or. .not. search%misses) return
       end if
       growth = next_growth(search%history, pressing%accuracy, LARGEST_GROWTH)
-      growth = min(growth, sqrt(real(most_cells(pressing), dp)/product(real(search%level%cells, dp))))
+      growth = min(growth, sqrt(real(pressing%cells_allowed(DEFAULT_MOST_CELLS), dp)/product(real(search%level%cells, dp))))
       call see_obstacles(pressing, growth, search)
       if (allocated(search%obstacle)) return
       before = search%level
@@ -187,18 +180,9 @@ contains
       ! In a few cells forces are those of the cells, and no finer grid would differ from them.
       search%misses = touching > 0 .and. touching < FEWEST_IN_CONTACT
     end associate
-    if (search%misses .or. is_unloaded(pressing) .or. product(search%level%cells) > MOST_LOOKED_BETWEEN) return
+    if (search%misses .or. pressing%is_unloaded() .or. product(search%level%cells) > MOST_LOOKED_BETWEEN) return
     call misses_contact(gap, search%level, search%misses, info)
   end subroutine look_at_last
-
-  !> Without a load the bodies touch at the lowest place, between the samples too.
-  pure function is_unloaded(pressing)
-    type(fuge_pressing), intent(in) :: pressing
-    logical :: is_unloaded
-
-    is_unloaded = .false.
-    if (allocated(pressing%load)) is_unloaded = .not. pressing%load > 0.0_dp
-  end function is_unloaded
 
   !> Note the last level, with the difference from the one `before`, if there is one.
   subroutine add_level(search, before, growth)
@@ -231,7 +215,8 @@ contains
     type(area_search), intent(inout) :: search
 
     if (growth < LEAST_GROWTH .or. all(finer(search%level%cells, growth) == search%level%cells)) then
-      search%obstacle = 'more than '//text(most_cells(pressing))//' cells are not allowed (most_cells)'
+      search%obstacle = 'more than '//text(pressing%cells_allowed(DEFAULT_MOST_CELLS)) &
+                        //' cells are not allowed (most_cells)'
     else if (search%history%seconds() + LONGER*growth**2*search%history%last_duration() > pressing%most_seconds) then
       search%obstacle = 'a finer grid would take longer than '//text(pressing%most_seconds)//' s (most_seconds)'
     end if
@@ -245,13 +230,6 @@ contains
 
     finer = max(cells, int(growth*real(cells, dp)))
   end function finer
-
-  pure function most_cells(pressing) result(most)
-    type(fuge_pressing), intent(in) :: pressing
-    integer :: most
-
-    most = merge(pressing%most_cells, DEFAULT_MOST_CELLS, pressing%most_cells > 0)
-  end function most_cells
 
   !> At which sides of a free rectangle, (4), left, right, low y, high y, is there contact?
   pure function rim_contact(pressing, level) result(touches)
@@ -272,10 +250,10 @@ contains
     end associate
   end function rim_contact
 
-  !> Give the last level as the answer.
+  !> Give the last level, whose forces and gaps move, as the answer.
   subroutine give_level(pressing, search, contact)
     type(fuge_pressing), intent(in) :: pressing
-    type(area_search), intent(in) :: search
+    type(area_search), intent(inout) :: search
     type(fuge_resolved_contact), intent(inout) :: contact
     real(dp) :: width(2)
 
@@ -285,8 +263,6 @@ contains
       allocate (contact%y, source=level%centres(2))
       allocate (contact%width_x(level%cells(1)), source=width(1))
       allocate (contact%width_y(level%cells(2)), source=width(2))
-      allocate (contact%force, source=solution%force)
-      allocate (contact%gap, source=solution%gap)
       allocate (contact%edges(2, 0))
       contact%load = sum(solution%force)
       if (allocated(pressing%load)) contact%load = pressing%load
@@ -298,6 +274,9 @@ contains
       contact%choice = text(level%cells(1))//' x '//text(level%cells(2))//' equal cells by FFT'
       if (search%jumps) contact%choice = contact%choice//'; the gap jumps at the rim of the contact'
     end associate
+    ! Moved, because there may be no memory for a copy.
+    call move_alloc(search%level%solution%force, contact%force)
+    call move_alloc(search%level%solution%gap, contact%gap)
     call search%history%give_errors(contact)
     if (search%misses) contact%pressure_error = 1.0_dp
   end subroutine give_level

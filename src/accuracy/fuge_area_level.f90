@@ -207,21 +207,22 @@ contains
   pure function jumps_at_rim(level) result(jumps)
     type(area_level), intent(in) :: level
     logical :: jumps
-    logical :: touches(level%cells(1), level%cells(2))
-    real(dp) :: gap(level%cells(1), level%cells(2)), least
-    integer :: k
+    real(dp) :: least
+    integer :: k, nx, n
 
     jumps = .false.
-    touches = reshape(level%solution%force > 0.0_dp, level%cells)
-    if (.not. any(touches)) return
-    gap = reshape(level%gap, level%cells)
-    least = LEAST_JUMP*max(0.0_dp, maxval(level%gap - level%solution%gap) - minval(level%gap))
-    do k = 1, level%cells(2)
-      if (.not. jumps) jumps = jumps_along(touches(:, k), gap(:, k), least)
-    end do
-    do k = 1, level%cells(1)
-      if (.not. jumps) jumps = jumps_along(touches(k, :), gap(k, :), least)
-    end do
+    nx = level%cells(1)
+    n = product(level%cells)
+    associate (force => level%solution%force, gap => level%gap)
+      if (.not. any(force > 0.0_dp)) return
+      least = LEAST_JUMP*max(0.0_dp, maxval(gap - level%solution%gap) - minval(gap))
+      do k = 1, n, nx
+        if (.not. jumps) jumps = jumps_along(force(k:k + nx - 1) > 0.0_dp, gap(k:k + nx - 1), least)
+      end do
+      do k = 1, nx
+        if (.not. jumps) jumps = jumps_along(force(k:n:nx) > 0.0_dp, gap(k:n:nx), least)
+      end do
+    end associate
   end function jumps_at_rim
 
   !> The same along one row of cells, by at least `least`.

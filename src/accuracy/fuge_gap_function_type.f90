@@ -3,7 +3,7 @@ module fuge_gap_function_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALLBACK
+  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY
   implicit none
   private
 
@@ -19,7 +19,8 @@ module fuge_gap_function_type
 
   abstract interface
     !> The initial `gap` (size(x)), length, at positions `x` and `y` (size(x)), length; on a line y is 0. A `status`
-    !> other than 0 ends the solve with FUGE_ERR_CALLBACK, and so does a gap that is not finite.
+    !> other than 0 ends the solve with FUGE_ERR_CALLBACK, but FUGE_ERR_MEMORY with that, and so does a gap that is not
+    !> finite.
     subroutine evaluate_at(self, x, y, gap, status)
       import :: fuge_gap_function, dp
       class(fuge_gap_function), intent(in) :: self
@@ -40,7 +41,10 @@ contains
     integer :: status, k
 
     call function%evaluate(x, y, gap, status)
-    if (status /= FUGE_DONE) then
+    if (status == FUGE_ERR_MEMORY) then
+      call report(info, status, 'no memory for '//text(size(x))//' places of the gap function')
+      return
+    else if (status /= FUGE_DONE) then
       call report(info, FUGE_ERR_CALLBACK, 'the gap function returned the status '//text(status)//' at ' &
                   //text(size(x))//' point(s) from x = '//text(x(1))//', y = '//text(y(1)))
       return

@@ -33,6 +33,7 @@ module fuge_level_history
     procedure :: add
     procedure :: pressure_error
     procedure :: give_errors
+    procedure :: give_only_level
     procedure :: seconds
     procedure :: last_duration
   end type level_history
@@ -136,6 +137,18 @@ contains
     contact%size_error = error_of(self, self%size)
   end subroutine give_errors
 
+  !> Note a series of `terms` terms, whose errors `contact` knows, and give it as the only level.
+  subroutine give_only_level(self, terms, contact)
+    class(level_history), intent(inout) :: self
+    integer, intent(in) :: terms
+    type(fuge_resolved_contact), intent(inout) :: contact
+
+    call self%add(terms, contact%method, contact%approach, contact%largest, contact%size)
+    contact%levels = self%levels
+    contact%levels%pressure_error = contact%pressure_error
+    contact%levels%approach_error = contact%approach_error
+  end subroutine give_only_level
+
   !> Time since `begin`.
   function seconds(self)
     class(level_history), intent(in) :: self
@@ -229,9 +242,13 @@ contains
     integer, intent(in) :: j
     real(dp) :: force
     integer, parameter :: BISECTIONS = 40
+    !> Borders that are nearer, in widths of the cell, are the same.
+    real(dp), parameter :: SAME_PLACE = 1.0e-9_dp
     real(dp) :: low, high, middle
     integer :: first, k
 
+    force = upto(j)
+    if (x - border(j) <= SAME_PLACE*(border(j + 1) - border(j))) return
     first = min(max(j - 1, 1), size(border) - 3)
     low = real(j - first, dp)
     high = low + 1.0_dp

@@ -6,7 +6,7 @@ module fuge_line_accuracy
   use fuge_line_series, only: give_series, series_suits, solve_by_series
   use fuge_number_text, only: text
   use fuge_pressing_type, only: check_extent, check_pressing, fuge_pressing, warn_of_accuracy
-  use fuge_resolved_contact_type, only: fuge_resolved_contact, FUGE_BY_SERIES
+  use fuge_resolved_contact_type, only: fuge_resolved_contact
   use fuge_smooth_contact_type, only: fuge_smooth_contact
   use fuge_status, only: fuge_info
   implicit none
@@ -75,8 +75,9 @@ contains
     if (info%failed() .or. done) return
     graded = search
     call refine_equal_cells(gap, pressing, search, info)
-    if (info%failed() .or. .not. graded%history%pressure_error() < search%history%pressure_error()) return
-    if (allocated(search%obstacle)) graded%obstacle = search%obstacle
+    if (info%failed() .or. .not. allocated(search%obstacle)) return
+    if (graded%misses .or. .not. graded%history%pressure_error() < search%history%pressure_error()) return
+    graded%obstacle = search%obstacle
     graded%history%levels = search%history%levels
     search = graded
   end subroutine refine_cells
@@ -97,12 +98,9 @@ contains
     call give_series(gap, left, right, series, contact, info)
     if (info%failed()) return
     associate (terms => size(series%coefficients))
-      call search%history%add(terms, FUGE_BY_SERIES, contact%approach, contact%largest, contact%size)
       contact%choice = 'a series of '//text(terms)//' term(s): the profile is smooth, in one contact'
+      call search%history%give_only_level(terms, contact)
     end associate
-    contact%levels = search%history%levels
-    contact%levels(1)%pressure_error = contact%pressure_error
-    contact%levels(1)%approach_error = contact%approach_error
   end subroutine take_series
 
 end module fuge_line_accuracy

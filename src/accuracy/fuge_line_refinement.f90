@@ -27,7 +27,8 @@ module fuge_line_refinement
     type(level_history) :: history
     !> The last level; is a contact known to be missed on it, or not resolved; and have the ends of the contact settled?
     type(line_level), private :: level
-    logical, private :: misses = .false., is_settled = .false.
+    logical :: misses = .false.
+    logical, private :: is_settled = .false.
     !> Intervals of contact, (2, k), those expected where one was missed included; and how far the ends of those of the
     !> last level are from the ones before, huge if their numbers differ.
     real(dp), allocatable, private :: contacts(:, :)
@@ -72,7 +73,7 @@ contains
 
     search%left = left
     search%right = right
-    if (allocated(pressing%load)) search%is_unloaded = .not. pressing%load > 0.0_dp
+    search%is_unloaded = pressing%is_unloaded()
     allocate (search%contacts(2, 0))
     call find_features(gap, left, right, search%features, search%is_rough, info)
   end subroutine begin_search
@@ -106,7 +107,7 @@ contains
     if (.not. info%failed()) call see_contacts(gap, search, info)
     if (info%failed()) return
     cells = real(FIRST_GRADED, dp)
-    do while (cells <= real(min(most_graded_cells(search), most_cells(pressing)), dp))
+    do while (cells <= real(min(most_graded_cells(search), pressing%cells_allowed(DEFAULT_MOST_CELLS)), dp))
       before = search%level
       call settle_on_graded_cells(gap, pressing, nint(cells), search, possible, info)
       if (.not. possible) search%level = before
@@ -195,13 +196,15 @@ contains
   pure function load_at_ends(force) result(share)
     real(dp), intent(in) :: force(:)
     real(dp) :: share
+    logical :: touches(size(force))
     integer :: first, last
 
     share = 0.0_dp
-    call next_run(force > 0.0_dp, 1, first, last)
+    touches = force > 0.0_dp
+    call next_run(touches, 1, first, last)
     do while (first <= size(force))
       share = share + sum(force(first:min(first + 2, last))) + sum(force(max(last - 2, first):last))
-      call next_run(force > 0.0_dp, last + 1, first, last)
+      call next_run(touches, last + 1, first, last)
     end do
     if (share > 0.0_dp) share = share/sum(force)
   end function load_at_ends
@@ -250,7 +253,7 @@ contains
 
     call search%history%change_method(SAFETY_EQUAL)
     growth = 2.0_dp
-    cells = min(FIRST_EQUAL, most_cells(pressing))
+    cells = min(FIRST_EQUAL, pressing%cells_allowed(DEFAULT_MOST_CELLS))
     do
       next%mesh = equal_cells(search%left, search%right, cells)
       call solve_equal_cells(gap, pressing, next, trial)
@@ -268,11 +271,13 @@ contains
         call look_at_last(gap, search, info)
         if (info%failed() .or. .not. search%misses) return
       end if
-      growth = next_growth(search%history, pressing%accuracy, real(most_cells(pressing), dp)/real(cells, dp))
+      growth = next_growth(search%history, pressing%accuracy, &
+                           real(pressing%cells_allowed(DEFAULT_MOST_CELLS), dp)/real(cells, dp))
       call watch_clock(pressing, LONGER_EQUAL*growth, search)
       if (allocated(search%obstacle)) return
       if (growth <= 1.0_dp) then
-        search%obstacle = 'more than '//text(most_cells(pressing))//' cells are not allowed (most_cells)'
+        search%obstacle = 'more than '//text(pressing%cells_allowed(DEFAULT_MOST_CELLS)) &
+                          //' cells are not allowed (most_cells)'
         return
       end if
       cells = nint(growth*real(cells, dp))
@@ -342,13 +347,6 @@ contains
     if (search%history%seconds() + longer*search%history%last_duration() > pressing%most_seconds) &
       search%obstacle = 'a finer grid would take longer than '//text(pressing%most_seconds)//' s (most_seconds)'
   end subroutine watch_clock
-
-  pure function most_cells(pressing) result(most)
-    type(fuge_pressing), intent(in) :: pressing
-    integer :: most
-
-    most = merge(pressing%most_cells, DEFAULT_MOST_CELLS, pressing%most_cells > 0)
-  end function most_cells
 
   !> Give the last level as the answer.
   subroutine give_level(pressing, search, contact)

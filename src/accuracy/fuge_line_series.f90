@@ -14,7 +14,7 @@ module fuge_line_series
   implicit none
   private
 
-  public :: give_series, series_suits, solve_by_series
+  public :: give_series, sample_series, series_suits, solve_by_series
 
   !> Chebyshev series of the gap are tried up to this length, and taken for exact when the last quarter of their
   !> coefficients is below this part of the largest one.
@@ -53,8 +53,9 @@ contains
     logical :: is_smooth
 
     found = .false.
-    call sample_profile_of(gap, left, right, profile, is_smooth, info)
+    call sample_series(gap, [0.0_dp, 0.0_dp], [1.0_dp, 0.0_dp], [left, right], LONGEST, profile, is_smooth, info)
     if (info%failed() .or. .not. is_smooth) return
+    if (.not. has_one_valley(profile)) return
     if (allocated(pressing%moment)) then
       call fuge_solve_smooth_punch(profile, pressing%e_star, pressing%load, series, attempt, pressing%moment)
     else
@@ -64,64 +65,73 @@ contains
     if (found) found = series%pressure_error <= pressing%accuracy
   end subroutine solve_by_series
 
-  !> The gap as a series, if it is smooth: more and more samples until the last coefficients are rounding.
-  subroutine sample_profile_of(gap, left, right, profile, is_smooth, info)
+  !> The gap as a Chebyshev series along a straight line, if it is smooth there: more and more samples, up to `longest`,
+  !> until the last coefficients are rounding and places between the samples agree. The line starts at `origin` (2),
+  !> length, in `direction` (2), of length 1; the series is one of the distance, between `ends` (2). Errors: those of the
+  !> gap function.
+  subroutine sample_series(gap, origin, direction, ends, longest, profile, is_smooth, info)
     class(fuge_gap_function), intent(in) :: gap
-    real(dp), intent(in) :: left, right
+    real(dp), intent(in) :: origin(2), direction(2), ends(2)
+    integer, intent(in) :: longest
     type(fuge_sampled_profile), intent(inout) :: profile
     logical, intent(out) :: is_smooth
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: x(:), height(:), coefficients(:)
+    real(dp), allocatable :: places(:), height(:), coefficients(:)
     integer :: n
 
     is_smooth = .false.
     n = FIRST_LENGTH
-    do while (n <= LONGEST)
-      x = profile%points(left, right, n)
-      if (allocated(height)) deallocate (height)
-      allocate (height(n + 1))
-      call sample_gap(gap, x, spread(0.0_dp, 1, n + 1), height, info)
+    do while (n <= longest)
+      if (allocated(places)) deallocate (places, height, coefficients)
+      allocate (places(n + 1), height(n + 1), coefficients(n + 1))
+      places = profile%points(ends(1), ends(2), n)
+      call sample_gap(gap, origin(1) + direction(1)*places, origin(2) + direction(2)*places, height, info)
       if (info%failed()) return
       coefficients = chebyshev_coefficients(height)
       is_smooth = maxval(abs(coefficients(3*n/4 + 1:))) <= ROUNDING*maxval(abs(coefficients))
       if (is_smooth) then
-        call profile%set(left, right, height, info)
-        if (.not. info%failed()) call look_between(gap, profile, is_smooth, info)
-        if (info%failed() .or. is_smooth) exit
+        call profile%set(ends(1), ends(2), height, info)
+        if (.not. info%failed()) call look_between(gap, origin, direction, profile, is_smooth, info)
+        if (info%failed() .or. is_smooth) return
       end if
       n = 2*n
     end do
-    if (is_smooth) is_smooth = has_one_valley(height)
-  end subroutine sample_profile_of
+  end subroutine sample_series
 
   !> Is the gap that of the series between its samples too? Errors: those of the gap function.
-  subroutine look_between(gap, profile, is_same, info)
+  subroutine look_between(gap, origin, direction, profile, is_same, info)
     class(fuge_gap_function), intent(in) :: gap
+    real(dp), intent(in) :: origin(2), direction(2)
     type(fuge_sampled_profile), intent(in) :: profile
     logical, intent(out) :: is_same
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: x(:), height(:), series(:), slope(:)
+    real(dp), allocatable :: places(:), height(:), series(:), slope(:)
     integer :: k, status
 
     is_same = .false.
-    allocate (x(LOOKS), height(LOOKS), series(LOOKS), slope(LOOKS))
+    allocate (places(LOOKS), height(LOOKS), series(LOOKS), slope(LOOKS))
     do k = 1, LOOKS
-      x(k) = profile%lower + (profile%upper - profile%lower)*((real(k, dp) - 0.5_dp)/real(LOOKS, dp))
+      places(k) = profile%lower + (profile%upper - profile%lower)*((real(k, dp) - 0.5_dp)/real(LOOKS, dp))
     end do
-    call sample_gap(gap, x, spread(0.0_dp, 1, LOOKS), height, info)
+    call sample_gap(gap, origin(1) + direction(1)*places, origin(2) + direction(2)*places, height, info)
     if (info%failed()) return
-    call profile%evaluate(x, series, slope, status)
+    call profile%evaluate(places, series, slope, status)
     is_same = status == FUGE_DONE .and. maxval(abs(series - height)) <= SAME*maxval(abs(height))
   end subroutine look_between
 
-  !> Do the samples fall to one lowest place and rise again? Otherwise there may be several contacts, and finding that out
+  !> Does the profile fall to one lowest place and rise again? Otherwise there may be several contacts, and finding that out
   !> by series takes longer than cells do.
-  pure function has_one_valley(height) result(has_one)
-    real(dp), intent(in) :: height(:)
+  function has_one_valley(profile) result(has_one)
+    type(fuge_sampled_profile), intent(in) :: profile
     logical :: has_one
+    real(dp), allocatable :: height(:), slope(:)
+    integer :: status
 
+    allocate (height(LONGEST + 1), slope(LONGEST + 1))
+    call profile%evaluate(profile%points(profile%lower, profile%upper, LONGEST), height, slope, status)
     associate (lowest => minloc(height, dim=1))
-      has_one = all(height(2:lowest) <= height(:lowest - 1)) .and. all(height(lowest + 1:) >= height(lowest:size(height) - 1))
+      has_one = all(height(2:lowest) <= height(:lowest - 1)) &
+                .and. all(height(lowest + 1:) >= height(lowest:LONGEST))
     end associate
   end function has_one_valley
 

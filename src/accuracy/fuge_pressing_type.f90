@@ -40,12 +40,33 @@ module fuge_pressing_type
     real(dp) :: most_seconds = huge(1.0_dp)
     !> Threads as in `fuge_options`.
     integer :: threads = 1
+  contains
+    procedure :: cells_allowed
+    procedure :: is_unloaded
   end type fuge_pressing
 
   !> Largest and smallest tolerance of a solve, and between them its part of the wanted error.
   real(dp), parameter :: LOOSEST = 1.0e-6_dp, TIGHTEST = 1.0e-12_dp, PART_OF_ACCURACY = 1.0e-3_dp
 
 contains
+
+  !> Most cells of a grid: `most_cells`, or the `default` if that is 0.
+  pure function cells_allowed(self, default) result(most)
+    class(fuge_pressing), intent(in) :: self
+    integer, intent(in) :: default
+    integer :: most
+
+    most = merge(self%most_cells, default, self%most_cells > 0)
+  end function cells_allowed
+
+  !> Is the load zero? Then the bodies touch at the lowest place of the gap, between samples too.
+  pure function is_unloaded(self)
+    class(fuge_pressing), intent(in) :: self
+    logical :: is_unloaded
+
+    is_unloaded = .false.
+    if (allocated(self%load)) is_unloaded = .not. self%load > 0.0_dp
+  end function is_unloaded
 
   !> Refuse a scene that makes no sense, or that cannot be solved to an error.
   subroutine check_pressing(pressing, info)

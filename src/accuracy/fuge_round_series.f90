@@ -1,10 +1,10 @@
 !> A round and smooth body in one disc of contact: by a series, without a grid.
 module fuge_round_series
   use fuge_cell_elements, only: FUGE_FREE
-  use fuge_chebyshev, only: chebyshev_coefficients
   use fuge_constants, only: PI
   use fuge_gap_function_type, only: fuge_gap_function, sample_gap
   use fuge_kinds, only: dp
+  use fuge_line_series, only: sample_series
   use fuge_pressing_type, only: fuge_pressing
   use fuge_resolved_contact_type, only: fuge_resolved_contact, FUGE_BY_SERIES
   use fuge_round_contact_type, only: fuge_round_contact
@@ -26,9 +26,8 @@ module fuge_round_series
   real(dp), parameter :: BETWEEN = 1.3_dp
   !> A gap is round if it differs, round the axis, by no more than this part of the wanted error of how far it rises.
   real(dp), parameter :: PART_OF_ACCURACY = 1.0e-3_dp
-  !> Lengths of the series of the profile, and what of them is rounding.
-  integer, parameter :: FIRST_LENGTH = 16, LONGEST = 64
-  real(dp), parameter :: ROUNDING = 1.0e-13_dp
+  !> Longest series of the profile that is tried.
+  integer, parameter :: LONGEST = 64
   !> No relative error is less.
   real(dp), parameter :: LEAST_ERROR = 1.0e-13_dp
   !> What of the gap is rounding of the series.
@@ -65,8 +64,11 @@ contains
     reach = min(minval(axis - lower), minval(upper - axis))
     if (.not. reach > 0.0_dp) return
     call look_round(gap, axis, reach, pressing%accuracy, found, info)
-    if (found .and. .not. info%failed()) call sample_radius(gap, axis, reach, profile, found, info)
+    if (found .and. .not. info%failed()) call sample_series(gap, axis, [cos(BETWEEN), sin(BETWEEN)], [0.0_dp, reach], &
+                                                            LONGEST, profile, found, info)
     if (info%failed() .or. .not. found) return
+    found = .not. has_tip(profile)
+    if (.not. found) return
     if (allocated(pressing%load)) then
       call fuge_solve_round_punch(profile, pressing%e_star, series, attempt, load=pressing%load)
     else
@@ -155,36 +157,16 @@ contains
     end do
   end subroutine look_round
 
-  !> The gap over the radius as a series, if it is smooth and has no tip.
-  subroutine sample_radius(gap, axis, reach, profile, is_smooth, info)
-    class(fuge_gap_function), intent(in) :: gap
-    real(dp), intent(in) :: axis(2), reach
-    type(fuge_sampled_profile), intent(inout) :: profile
-    logical, intent(out) :: is_smooth
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: r(:), height(:), coefficients(:)
-    real(dp) :: on_axis(1), slope(1)
-    integer :: n, status
+  !> Has the profile a tip on the axis, where its slope is not zero?
+  function has_tip(profile)
+    type(fuge_sampled_profile), intent(in) :: profile
+    logical :: has_tip
+    real(dp) :: height(2), slope(2)
+    integer :: status
 
-    is_smooth = .false.
-    n = FIRST_LENGTH
-    do while (n <= LONGEST)
-      if (allocated(r)) deallocate (r, height, coefficients)
-      allocate (r(n + 1), height(n + 1), coefficients(n + 1))
-      r = profile%points(0.0_dp, reach, n)
-      call sample_gap(gap, axis(1) + r*cos(BETWEEN), axis(2) + r*sin(BETWEEN), height, info)
-      if (info%failed()) return
-      coefficients = chebyshev_coefficients(height)
-      is_smooth = maxval(abs(coefficients(3*n/4 + 1:))) <= ROUNDING*maxval(abs(coefficients))
-      if (is_smooth) exit
-      n = 2*n
-    end do
-    if (.not. is_smooth) return
-    call profile%set(0.0_dp, reach, height, info)
-    if (info%failed()) return
-    call profile%evaluate([0.0_dp], on_axis, slope, status)
-    is_smooth = status == FUGE_DONE .and. abs(slope(1))*reach <= NO_TIP*(height(1) - on_axis(1))
-  end subroutine sample_radius
+    call profile%evaluate([0.0_dp, profile%upper], height, slope, status)
+    has_tip = status /= FUGE_DONE .or. abs(slope(1))*profile%upper > NO_TIP*(height(2) - height(1))
+  end function has_tip
 
   !> Is the gap that of the profile, `is_same`, wherever this reaches? `lowest` is that of the gaps farther from the axis,
   !> huge if there are none. The arguments are nine: the gap and its rectangle, what was found of it, two results. Errors:
