@@ -34,7 +34,7 @@ PROGRAMS = {"accuracy": "accuracy", "graded": "graded_cells", "costs": "costs", 
             "load_cases": "load_cases", "increments": "increments", "threads": "threads",
             "threads_model": "threads_model", "layered_waves": "layered_waves",
             "layered_surfaces": "layered_surfaces", "proofs": "proofs",
-            "gradients": "gradients"}
+            "gradients": "gradients", "wanted_error": "wanted_error"}
 # The rows of these that the manual has; all of the others.
 ROWS = {"graded": r"\| (?:contact|---|(?:cylinder|flat|lifted) \| (?:64|256) )"}
 # Words of the programs, and those of the manual; and columns that the manual does not have.
@@ -42,6 +42,10 @@ WORDS = {"graded": ((r"\| cylinder \|", "| cylinder, edges |"), (r"\| flat \|", 
                     (r"\| lifted \|", "| tilted face that lifts off, one edge and one corner |")),
          "products_of_scenes": ((r"\b4096\b", "2^12"), (r"\b65536\b", "2^16"), (r"\b262144\b", "2^18"),
                                 (r"(\d+)x(\d+)", r"\1 x \2")),
+         "wanted_error": ((r"\| face \|", "| flat face |"), (r"\| jumps \|", "| flat face on a wider interval |"),
+                          (r"\| wave \|", "| wave, periodic |"), (r"\| rough_light \|", "| rough, periodic, light |"),
+                          (r"\| rough_heavy \|", "| rough, periodic, heavy |"), (r"\| rough_barrel \|", "| rough cylinder |"),
+                          (r"\| disc \|", "| flat disc |"), (r"\| rough_area \|", "| rough, periodic, area |")),
          "steps": ((r"\b(quartic|light|heavy)_(\d+)", r"\1 2^\2"),)}
 # Engines that solve with a given matrix.
 DENSE_ENGINES = {"tableau": "tableau", "active_set": "active set", "iterative": "iteration with a matrix"}

@@ -1,6 +1,6 @@
 # Sets `fuge_components`, the components of src/ that are built: FUGE_COMPONENTS and those that they use according to
 # src/components.txt; the others are in `fuge_left_out_components`.
-set(FUGE_COMPONENTS core elastic halfplane halfspace rings layers punches fe files CACHE STRING
+set(FUGE_COMPONENTS core elastic halfplane halfspace rings layers punches fe files accuracy CACHE STRING
   "Components of the library, a list: what they use is built with them")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS src/components.txt)
 

@@ -10,7 +10,7 @@
 set(fuge_of_fftw
   "(halfplane|halfspace)_?operator|operator_(layered_)?(halfplane|halfspace)|(stress|displacement)_grid|_interfaces|fugefx[^a-z]"
   "%set_grid|fuge_field_[a-z_]*grid"
-  "(fft|line|split)_plan|kept_rows|set_grid_store"
+  "(fft|line|split)_plan|kept_rows|set_grid_store|fuge_solve_(line|area)[^a-z]"
   "use fuge_(convolution|grid_convolution|grid_plan|grid_waves|halfspace_waves)")
 list(JOIN fuge_of_fftw "|" fuge_of_fftw)
 

@@ -82,5 +82,6 @@
 #include "fuge_punches.h"    /* Hertz; smooth punches and round ones, without a grid */
 #include "fuge_fe.h"         /* bodies of finite elements: condensation, pairs of surfaces */
 #include "fuge_files.h"      /* results on grids and meshes for ParaView */
+#include "fuge_accuracy.h"   /* contact to a wanted error */
 
 #endif

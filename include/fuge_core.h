@@ -32,6 +32,7 @@ enum {
   FUGE_WARN_NOT_PROVED = 7,        /* done, but the solution is not proved */
   FUGE_WARN_KINK = 8,              /* done, but at a kink: the gradient is that of one side */
   FUGE_WARN_UNREACHABLE = 9,       /* done, but for other forces: those wanted are not possible */
+  FUGE_WARN_ACCURACY = 10,         /* done, but less exactly than wanted */
   FUGE_ERR_SIZE = -1,              /* a size or an index is invalid, or arrays differ in length:
                                       n < 1, lda < n, a range beyond the last entry */
   FUGE_ERR_POINTER = -2,           /* a required pointer is NULL, or an array is not contiguous */

@@ -13,7 +13,8 @@ from playwright.sync_api import sync_playwright
 WIDTHS = (1280, 400)
 FIRST = {"uplift": "tutorial_structures", "misalignment": "tutorial_area", "tilt": "tutorial_fortran", "prove": "proof",
          "memory": "performance", "tableau": "tableau", "hertz": "theory_area", "certificate": "theory",
-         "mortar": "tutorial_two_meshes", "find_package": "install", "FUGE_ERR_NO_EQUILIBRIUM": "errors",
+         "adaptive": "tutorial_accuracy", "mortar": "tutorial_two_meshes", "find_package": "install",
+         "FUGE_ERR_NO_EQUILIBRIUM": "errors",
          "fuge_solve_dense": "fortran_core", "fuge_solve_smooth_punch": "fortran_punches",
          "fuge_set_gap": "fuge_core_h", "hertz_ellipse": "autoapi/fuge/index"}
 LOOK = r"""() => {

@@ -23,12 +23,13 @@ HOLDS = {
     "punches": "Hertz, smooth and round, no grid",
     "fe": "stiffness, pairs, bodies",
     "files": "results for ParaView",
+    "accuracy": "grids for a wanted error",
     "facade": "the module fuge",
     "f77": "FORTRAN 77",
     "mpi": "surfaces over MPI",
     "sparse": "CHOLMOD",
 }
-LIBRARY = {"core", "elastic", "halfplane", "halfspace", "rings", "layers", "punches", "fe", "files"}
+LIBRARY = {"core", "elastic", "halfplane", "halfspace", "rings", "layers", "punches", "fe", "files", "accuracy"}
 
 
 def arrows(table):

@@ -35,6 +35,8 @@ Solving: gaps and a load, a prescribed approach, or several rigid motions::
     load_path(alpha, gap, load)             all loads at which a point changes its PointState: a Path
     contact_edges(x, width, force, element) edges finer than the grid: ContactEdges, each of an EdgeKind
     hertz_ellipse                           Hertz in closed form: HertzContact
+    solve_line, solve_area                  to a wanted error, from a gap as a function: a ResolvedContact with its
+                                            Level of each solve; numbers with an error are an Estimate
     solve_lcp(M, q), solve_qp(P, q, G, h, A, b)   problems without a contact: LcpSolution, QpSolution
     solve_smooth_punch                      one interval under a smooth profile, without a grid: SmoothContact
     solve_round_punch, solve_round_powers   the same for punches of revolution: RoundContact; both are a PunchContact
@@ -73,18 +75,26 @@ Stresses and displacements in the bodies::
 
 Pictures by matplotlib, one call each on what a solve returns::
 
-    plot.map, plot.line, plot.gap, plot.stress, plot.path
+    plot.map, plot.line, plot.gap, plot.stress, plot.path, plot.levels
 
 What can go wrong: each error and warning has a Status and a message that says how to mend it::
 
     Error: InputError, MatrixError, EquilibriumError, LimitError, UnsupportedError, CallOrderError, FileError,
         OutOfMemoryError, CallbackError, CancelledError
     Warning: ResidualWarning, NotUniqueWarning, IllConditionedWarning, GridWarning, PairsWarning,
-        NoContactWarning, FileWarning, CasesWarning, NotProvedWarning, KinkWarning, UnreachableWarning
+        NoContactWarning, FileWarning, CasesWarning, NotProvedWarning, KinkWarning, UnreachableWarning,
+        AccuracyWarning
 """
 
 # "as" exports a name, as __all__ would; but with that help(fuge) would have the whole text of each.
 from fuge import _library, plot as plot
+from fuge.accuracy import (
+    Estimate as Estimate,
+    Level as Level,
+    ResolvedContact as ResolvedContact,
+    solve_area as solve_area,
+    solve_line as solve_line,
+)
 from fuge.bodies import BodiesContact as BodiesContact, ElasticBodies as ElasticBodies, JoinedBodies as JoinedBodies
 from fuge.body import Body as Body, Condensed as Condensed, rigid_modes as rigid_modes
 from fuge.cases import Cases as Cases, Envelope as Envelope, envelope as envelope
@@ -94,6 +104,7 @@ from fuge.contact import Contact as Contact, Derivative as Derivative, History a
 from fuge.deck import Deck as Deck
 from fuge.design import Gradients as Gradients, WantedContact as WantedContact
 from fuge.errors import (
+    AccuracyWarning as AccuracyWarning,
     CallbackError as CallbackError,
     CallOrderError as CallOrderError,
     CancelledError as CancelledError,

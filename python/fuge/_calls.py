@@ -335,3 +335,18 @@ def profile_callback(profile: Callable[[NDArray[np.float64]], Any]) -> Any:
             return _keep(exception)
 
     return CALLBACKS["fuge_smooth_profile"](called)
+
+
+def gap_callback(gap: Callable[..., Any], coordinates: int) -> Any:
+    """A C function that calls ``gap(x)`` or ``gap(x, y)``, for one or two coordinates."""
+
+    def called(n: int, x: Any, y: Any, values: Any, user: Any) -> int:
+        try:
+            _check_interrupt()
+            places = (_read_only(array, n) for array in (x, y)[:coordinates])
+            np.ctypeslib.as_array(values, (n,))[:] = doubles("the result of the gap function", gap(*places))
+            return 0
+        except BaseException as exception:
+            return _keep(exception)
+
+    return CALLBACKS["fuge_gap_function"](called)

@@ -24,7 +24,7 @@ class Signature(NamedTuple):
 
 
 class Member(NamedTuple):
-    """A member of a struct; `length` is None unless it is an array."""
+    """A member of a struct; `length` is None unless it is an array. Pointers are to constants."""
 
     name: str
     type: str
@@ -179,6 +179,12 @@ def _members(words: list[str]) -> list[Member]:
         raise ValueError
     for declaration in declarations:
         type, *names = declaration.split()
+        if type == "const":
+            # A pointer to constants, alone in its declaration.
+            target, star, *names = names
+            if star != "*":
+                raise ValueError
+            type = f"const {target} *"
         for (declared,) in _items(names):
             name, bracket, length = declared.partition("[")
             if not name.isidentifier():

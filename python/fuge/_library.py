@@ -61,6 +61,12 @@ class _Ints(_Array):
 
 
 _NUMBERS: dict[str, Any] = {"int": ctypes.c_int, "double": ctypes.c_double}
+# In structs; the caller keeps the arrays to which pointers lead.
+_OF_STRUCTS: dict[str, Any] = {
+    **_NUMBERS,
+    "char": ctypes.c_char,
+    "double*": ctypes.POINTER(ctypes.c_double),
+}
 # Arrays that a callback gets or fills are those of the library.
 _OF_CALLBACKS: dict[str, Any] = {
     **_NUMBERS,
@@ -84,7 +90,7 @@ def _callback(signature: Signature) -> Any:
 def _struct(name: str, members: list[Member]) -> type[ctypes.Structure]:
     fields = []
     for member in members:
-        number = _type(member.type, _NUMBERS)
+        number = _type(member.type, _OF_STRUCTS)
         fields.append((member.name, number if member.length is None else number * member.length))
     return type(name, (ctypes.Structure,), {"_fields_": fields})
 

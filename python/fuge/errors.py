@@ -29,6 +29,7 @@ class Status(Constants):
     WARN_NOT_PROVED = auto()
     WARN_KINK = auto()
     WARN_UNREACHABLE = auto()
+    WARN_ACCURACY = auto()
     ERR_SIZE = auto()
     ERR_POINTER = auto()
     ERR_NOT_FINITE = auto()
@@ -178,6 +179,10 @@ class UnreachableWarning(Warning):
     """Some points cannot have the pressure wanted; the gaps are those for the nearest one that they can have."""
 
 
+class AccuracyWarning(Warning):
+    """The estimated error is above the wanted one; the message says what was reached, and why no more."""
+
+
 class GridWarning(Warning):
     """The contact reaches the rim of its grid: unless the bodies end there, the grid is too small.
 
@@ -210,6 +215,7 @@ _WARNINGS: dict[Status, type[Warning]] = {
     Status.WARN_NOT_PROVED: NotProvedWarning,
     Status.WARN_KINK: KinkWarning,
     Status.WARN_UNREACHABLE: UnreachableWarning,
+    Status.WARN_ACCURACY: AccuracyWarning,
 }
 
 _PACKAGE = str(Path(__file__).parent)

@@ -6,6 +6,7 @@
     fuge.plot.gap(contact)       the gaps under load
     fuge.plot.stress(contact)    the largest shear stress below the contact, or in a fuge.Field
     fuge.plot.path(fuge.load_path(alpha, gap, load))    the load over the approach
+    fuge.plot.levels(fuge.solve_line(gap, interval, e_star=E, load=F))    the error over time, or over cells
 
 Each returns matplotlib's Axes, those of the argument ``ax`` or new ones; ``ax.figure.savefig`` saves the picture. The
 axes show units that are given, ``unit="mm", pressure_unit="MPa"``. Coordinates count from the middle of the grid unless
@@ -23,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge._cuts import Cut, cut_through
+from fuge.accuracy import ResolvedContact
 from fuge.contact import Contact
 from fuge.errors import Status, error
 from fuge.field import Field
@@ -37,6 +39,8 @@ AnyContact = Union[Contact, SmoothContact, RoundContact]
 # Colour-blind readers too can tell blue from vermilion, and the shades of these maps from each other.
 BLUE, VERMILION, GREY = "#0072B2", "#D55E00", "#BBBBBB"
 PRESSURES, GAPS, STRESSES = "viridis", "cividis_r", "inferno"
+# Of levels, by their method.
+_MARKS = {"series": ("^", BLUE), "graded_cells": ("s", VERMILION), "equal_cells": ("o", BLUE)}
 # Cells are drawn as equal ones if their widths differ by at most this, relative to the mean width.
 _UNEQUAL = 1e-3
 
@@ -380,6 +384,53 @@ def _told_events(path: Path) -> str:
     states = path.state[1:]
     joining, leaving = int(np.sum(states != PointState.OPEN)), int(np.sum(states == PointState.OPEN))
     return f"{joining} points come into contact" + (f", {leaving} leave it" if leaving else "")
+
+
+def levels(
+    contact: ResolvedContact,
+    *,
+    over: Literal["seconds", "cells"] = "seconds",
+    ax: Axes | None = None,
+) -> Axes:
+    """The estimated error of the pressure on the way to the wanted one, which is a grey line.
+
+    Levels whose error is not known yet, such as the first one, are left out.
+
+    Parameters
+    ----------
+    contact : ResolvedContact
+        Of :func:`fuge.solve_line` or :func:`fuge.solve_area`.
+    over : {'seconds', 'cells'}
+        The time since the call, with the number of cells at each mark, or the cells.
+    ax : matplotlib Axes, optional
+
+    Returns
+    -------
+    matplotlib Axes
+    """
+    _check("levels", contact, ResolvedContact)
+    by_time = _arrays.choice("over", over, {"seconds": 1, "cells": 0}) == 1
+    known = [level for level in contact.levels if level.pressure_error < 1.0]
+    axes = _new_axes(ax)
+    axes.axhline(contact.accuracy, color=GREY, linewidth=2, label="wanted")
+    for method in dict.fromkeys(level.method for level in known):
+        of_method = [level for level in known if level.method == method]
+        across = [level.seconds if by_time else level.cells for level in of_method]
+        errors = [level.pressure_error for level in of_method]
+        mark, colour = _MARKS[method]
+        axes.plot(across, errors, color=colour, marker=mark, linewidth=1, label=method.replace("_", " "))
+    for level in known if by_time else []:
+        place = level.seconds, level.pressure_error
+        axes.annotate(str(level.cells), place, xytext=(5, 5), textcoords="offset points", fontsize="small")
+    # A series may reach rounding, and an error of 0 has no place.
+    axes.set_xscale("log", nonpositive="mask")
+    axes.set_yscale("log", nonpositive="mask")
+    axes.set_xlabel("time [s]" if by_time else "cells")
+    axes.set_ylabel("share of the load in the wrong place")
+    axes.legend(frameon=False)
+    reached = f"{contact.pressure_error:.1e} in {contact.levels[-1].seconds:.2g} s"
+    _title(axes, f"Estimated error: {reached}, wanted {contact.accuracy:.1e}")
+    return axes
 
 
 def stress(

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import fuge
 
-PICTURES = ("gap", "line", "map", "path", "stress")
+PICTURES = ("gap", "levels", "line", "map", "path", "stress")
 
 
 def public(module):
@@ -82,6 +82,7 @@ class Docstrings(unittest.TestCase):
             fuge.Solver.vjp,
             fuge.Solver.gap_for_pressure,
             fuge.solve_round_powers,
+            fuge.solve_line,
         ):
             test = parser.get_doctest(inspect.getdoc(item), {"fuge": fuge}, item.__name__, None, None)
             self.assertTrue(test.examples)

@@ -36,7 +36,12 @@ def pointer_to(kind):
     """The C type of a pointer to a member of a struct."""
     if issubclass(kind, ctypes.Array):
         return f"{pointer_to(kind._type_)[:-2]} (*)[{kind._length_}]"
-    return {ctypes.c_int: "int *", ctypes.c_double: "double *"}[kind]
+    return {
+        ctypes.c_int: "int *",
+        ctypes.c_double: "double *",
+        ctypes.c_char: "char *",
+        ctypes.POINTER(ctypes.c_double): "const double * *",
+    }[kind]
 
 
 def in_c():
@@ -84,6 +89,7 @@ class Compiled(unittest.TestCase):
             ("sizeof(fuge_info) == 96", "sizeof(fuge_info) == 88"),
             ("->iterations, int *", "->iterations, double *"),
             ("->tensor, double (*)[6]", "->tensor, double (*)[5]"),
+            ("->load, const double * *", "->load, double * *"),
         ]:
             code = in_c()
             self.assertIn(there, code)
@@ -153,11 +159,13 @@ class Reader(unittest.TestCase):
     def test_what_it_understands(self):
         found = self.read(
             "typedef struct fuge_a fuge_a; typedef struct fuge_b { int n, m; double x[3]; } fuge_b;\n"
+            "typedef struct fuge_c { const double *y; char word[8]; } fuge_c;\n"
             "enum { FUGE_ONE = 1, FUGE_LESS = -2 };  typedef int (*fuge_f)(const double *x, void *user);\n"
             "const char *fuge_g(void);\nvoid fuge_h(fuge_a **a, /* which; where */ const char *const *names, fuge_f f);"
         )
         self.assertEqual(found.handles, ["fuge_a"])
-        self.assertEqual(found.structs, {"fuge_b": [("n", "int", None), ("m", "int", None), ("x", "double", 3)]})
+        self.assertEqual(found.structs["fuge_b"], [("n", "int", None), ("m", "int", None), ("x", "double", 3)])
+        self.assertEqual(found.structs["fuge_c"], [("y", "const double *", None), ("word", "char", 8)])
         self.assertEqual(found.constants, {"ONE": 1, "LESS": -2})
         self.assertEqual(found.callbacks, {"fuge_f": ("int", ["const double *", "void *"])})
         self.assertEqual(found.functions["fuge_g"], ("const char *", []))
@@ -190,6 +198,8 @@ class Reader(unittest.TestCase):
             "typedef struct fuge_a fuge_b;",
             "typedef struct { int n; } fuge_a;",
             "typedef struct fuge_a { int *n; } fuge_a;",
+            "typedef struct fuge_a { const int n; } fuge_a;",
+            "typedef struct fuge_a { const double *x, *y; } fuge_a;",
             "typedef struct fuge_a { int n : 3; } fuge_a;",
             "typedef struct fuge_a { int n[N]; } fuge_a;",
             "typedef struct fuge_a { int n[2][2]; } fuge_a;",

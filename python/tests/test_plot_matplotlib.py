@@ -1,5 +1,6 @@
 """The pictures: what their lines, maps and titles hold."""
 
+import dataclasses
 import io
 import subprocess
 import sys
@@ -203,6 +204,38 @@ class Paths(Pictures):
         self.assertRegex(self.title(ax), "points come into contact, [1-9][0-9]* leave it")
 
 
+class Levels(Pictures):
+    def test_over_time_and_cells(self):
+        # Two methods, and a level of which nothing is known yet.
+        errors = [("equal_cells", 1.0), ("equal_cells", 0.02), ("graded_cells", 0.01), ("graded_cells", 0.002)]
+        contact = fuge.solve_line(lambda x: x**2, (-1.0, 1.0), e_star=2.0, load=0.2, accuracy=3e-3)
+        levels = [fuge.Level(64 + k, *errors[k], approach_error=np.inf, seconds=0.1 * k) for k in range(4)]
+        contact = dataclasses.replace(contact, levels=levels, pressure_error=0.002)
+        ax = self.drawn(fuge.plot.levels(contact))
+        wanted, *curves = ax.lines
+        self.assertEqual(set(wanted.get_ydata()), {3e-3})
+        self.assertEqual([list(curve.get_ydata()) for curve in curves], [[0.02], [0.01, 0.002]])
+        self.assertEqual(list(curves[1].get_xdata()), [levels[2].seconds, levels[3].seconds])
+        self.assertNotEqual(curves[0].get_marker(), curves[1].get_marker())
+        self.assertEqual([text.get_text() for text in ax.texts], ["65", "66", "67"])
+        self.assertEqual((ax.get_xscale(), ax.get_yscale()), ("log", "log"))
+        self.assertEqual((ax.get_xlabel(), ax.get_ylabel()), ("time [s]", "share of the load in the wrong place"))
+        words = [text.get_text() for text in ax.get_legend().get_texts()]
+        self.assertEqual(words, ["wanted", "equal cells", "graded cells"])
+        self.assertEqual(self.title(ax), "Estimated error: 2.0e-03 in 0.3 s, wanted 3.0e-03")
+        ax = self.drawn(fuge.plot.levels(contact, over="cells"))
+        self.assertEqual(list(ax.lines[2].get_xdata()), [66, 67])
+        self.assertEqual((ax.get_xlabel(), len(ax.texts)), ("cells", 0))
+        self.assertRaises(fuge.InputError, fuge.plot.levels, contact, over="load")
+
+    def test_of_solves(self):
+        for gap in (lambda x: x**2, np.abs, lambda x: np.abs(np.sin(9 * x))):
+            contact = fuge.solve_line(gap, (-1.0, 1.0), e_star=2.0, load=0.2, accuracy=1e-2)
+            ax = self.drawn(fuge.plot.levels(contact))
+            self.assertGreater(len(ax.lines), 1)
+            self.assertLessEqual(ax.lines[-1].get_ydata()[-1], 1e-2)
+
+
 class Stresses(Pictures):
     def test_line(self):
         ax = self.drawn(fuge.plot.stress(self.barrel, unit="mm", pressure_unit="MPa"))
@@ -361,7 +394,7 @@ class Matplotlib(Pictures):
         self.assertEqual(pyplot.get_fignums(), [figure.number])
 
     def test_kinds(self):
-        for picture in ("line", "map", "gap", "path", "stress"):
+        for picture in ("line", "map", "gap", "path", "stress", "levels"):
             with self.assertRaisesRegex(TypeError, rf"fuge.plot.{picture} draws a \w+.*, not ndarray"):
                 getattr(fuge.plot, picture)(self.ball.force)
 

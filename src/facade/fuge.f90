@@ -1,5 +1,6 @@
 !> The whole public interface of fuge, frictionless elastic contact: that of its components.
 module fuge
+  use fuge_accuracy
   use fuge_core
   use fuge_elastic
   use fuge_fe

@@ -108,7 +108,7 @@ function(check_names path names)
 endfunction()
 
 set(facade)
-foreach(component IN ITEMS core elastic halfplane halfspace rings layers punches fe files)
+foreach(component IN ITEMS core elastic halfplane halfspace rings layers punches fe files accuracy)
   file(GLOB found "${ROOT}/src/${component}/fuge_${component}.f90"
     "${ROOT}/src/bodies/${component}/fuge_${component}.f90")
   read_lines("${found}" lines)

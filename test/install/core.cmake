@@ -66,7 +66,7 @@ if(status EQUAL 0 OR NOT output MATCHES "was built without halfspace .FUGE_COMPO
   message(SEND_ERROR "the component halfspace is not refused: ${output}")
 endif()
 # Other subsets can be configured, with their tests.
-foreach(component IN ITEMS halfplane halfspace layers punches fe files)
+foreach(component IN ITEMS halfplane halfspace layers punches fe files accuracy)
   run("configure ${component}" "${CMAKE_COMMAND}" -S "${SOURCE_DIR}" -B "${SCRATCH}/${component}" ${settings}
     -DFUGE_COMPONENTS=${component} -DFUGE_WITH_FFTW=${WITH_FFTW} -DFUGE_BUILD_TESTS=ON)
 endforeach()

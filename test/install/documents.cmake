@@ -59,7 +59,7 @@ endif()
 
 file(READ "${PREFIX}/${DOCDIR}/doc/fortran.md" page)
 set(facade "")
-foreach(component IN ITEMS core elastic halfplane halfspace rings layers punches fe files)
+foreach(component IN ITEMS core elastic halfplane halfspace rings layers punches fe files accuracy)
   file(GLOB found "${SOURCE_DIR}/src/${component}/fuge_${component}.f90"
     "${SOURCE_DIR}/src/bodies/${component}/fuge_${component}.f90")
   file(READ "${found}" text)

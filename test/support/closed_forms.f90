@@ -3,7 +3,7 @@
 !> Tests and benchmarks share them; only the kind of real numbers comes from the library.
 !> Everything is per unit depth, with the modulus E* of 1/E* = 1/E1* + 1/E2*; the contact is
 !> |x| <= a. Sources:
-!> K. L. Johnson, Contact Mechanics, 1985, sections 2.8 (flat punches), 4.2 (cylinder), 13.2
+!> K. L. Johnson, Contact Mechanics, 1985, sections 2.8 (flat punches), 4.2 (cylinder), 5.2 (wedge), 13.2
 !> (waves, after H. M. Westergaard, Bearing pressures and cracks, J. Appl. Mech. 6, 1939);
 !> the punch A x**4 is the paper's. A flat punch that has lifted off is a punch in full contact, at
 !> its limiting moment, on the part that still touches.
@@ -15,7 +15,7 @@ module closed_forms
   implicit none
   private
 
-  public :: press_cylinder, press_quartic, press_flat, press_beside, press_wave
+  public :: press_cylinder, press_quartic, press_wedge, press_flat, press_beside, press_wave
 
   real(dp), parameter :: PI = acos(-1.0_dp)
 
@@ -77,6 +77,17 @@ module closed_forms
     procedure :: gap => quartic_gap
     procedure :: mean_log => quartic_mean_log
   end type quartic_punch
+
+  !> A blunt wedge, initial gap `slope` |x|.
+  type, extends(closed_form), public :: wedge
+    real(dp) :: slope = 0.0_dp
+  contains
+    procedure :: pressure => wedge_pressure
+    procedure :: force_to => wedge_force_to
+    procedure :: initial_gap => wedge_initial_gap
+    procedure :: gap => wedge_gap
+    procedure :: mean_log => wedge_mean_log
+  end type wedge
 
   !> A flat rigid face under load and moment, in contact for |x| <= a.
   !>
@@ -260,6 +271,62 @@ contains
 
     value = log(0.5_dp*self%a) - 0.25_dp
   end function quartic_mean_log
+
+  !> F = E* slope a.
+  pure function press_wedge(e_star, load, slope) result(form)
+    real(dp), intent(in) :: e_star, load, slope
+    type(wedge) :: form
+
+    form%e_star = e_star
+    form%load = load
+    form%slope = slope
+    form%a = load/(e_star*slope)
+  end function press_wedge
+
+  !> p = (E* slope/pi) arccosh(a/|x|), infinite at the tip, where this returns 0.
+  elemental function wedge_pressure(self, x) result(value)
+    class(wedge), intent(in) :: self
+    real(dp), intent(in) :: x
+    real(dp) :: value
+
+    value = 0.0_dp
+    if (abs(x) < self%a .and. abs(x) > 0.0_dp) value = self%e_star*self%slope/PI*acosh(self%a/abs(x))
+  end function wedge_pressure
+
+  elemental function wedge_force_to(self, x) result(value)
+    class(wedge), intent(in) :: self
+    real(dp), intent(in) :: x
+    real(dp) :: value, s
+
+    s = clamped(x, self%a)
+    value = 0.0_dp
+    if (abs(s) > 0.0_dp) value = self%e_star*self%slope/PI*(s*acosh(self%a/abs(s)) + self%a*asin(s/self%a))
+  end function wedge_force_to
+
+  elemental function wedge_initial_gap(self, x) result(value)
+    class(wedge), intent(in) :: self
+    real(dp), intent(in) :: x
+    real(dp) :: value
+
+    value = self%slope*abs(x)
+  end function wedge_initial_gap
+
+  elemental function wedge_gap(self, x) result(value)
+    class(wedge), intent(in) :: self
+    real(dp), intent(in) :: x
+    real(dp) :: value
+
+    value = 0.0_dp
+    if (abs(x) > self%a) value = 2.0_dp*self%slope/PI*(abs(x)*acos(self%a/abs(x)) - self%a*acosh(abs(x)/self%a))
+  end function wedge_gap
+
+  !> By parts: the integral of ln(t) arccosh(1/t) from 0 to 1 is -(pi/2) (1 + ln(2)).
+  elemental function wedge_mean_log(self) result(value)
+    class(wedge), intent(in) :: self
+    real(dp) :: value
+
+    value = log(0.5_dp*self%a) - 1.0_dp
+  end function wedge_mean_log
 
   !> A face of half width a; |moment| <= load a/2, or it lifts off at one edge.
   pure function press_flat(e_star, load, a, moment) result(form)

@@ -38,6 +38,8 @@ module fuge_status
   integer, parameter, public :: FUGE_WARN_KINK = 8
   !> Found, but for other forces than those wanted, which the points cannot have.
   integer, parameter, public :: FUGE_WARN_UNREACHABLE = 9
+  !> Solved, but the estimated error is above the wanted one: the message says what was reached, and why.
+  integer, parameter, public :: FUGE_WARN_ACCURACY = 10
   !> A size or an index is invalid, or arrays differ in length.
   integer, parameter, public :: FUGE_ERR_SIZE = -1
   !> An array is not contiguous; in C a pointer is NULL.
@@ -89,7 +91,7 @@ module fuge_status
 
   !> The range of the codes.
   integer, parameter, public :: LOWEST_STATUS = FUGE_ERR_LAW
-  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_UNREACHABLE
+  integer, parameter, public :: HIGHEST_STATUS = FUGE_WARN_ACCURACY
 
   !> The text of each code, lowest first.
   character(len=64), parameter, public :: STATUS_MEANINGS(LOWEST_STATUS:HIGHEST_STATUS) = [character(len=64) :: &
@@ -126,7 +128,8 @@ module fuge_status
     'done, but some load cases failed or have a warning', &
     'done, but the solution is not proved', &
     'done, but at a kink: the gradient is that of one side', &
-    'done, but for other forces: those wanted are not possible']
+    'done, but for other forces: those wanted are not possible', &
+    'done, but less exactly than wanted']
 
   character(len=*), parameter :: UNKNOWN_STATUS = 'unknown status'
 

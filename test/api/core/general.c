@@ -8,8 +8,8 @@ static void test_version(void) {
 }
 
 static void test_status_texts(void) {
-  const char *unknown = fuge_status_text(FUGE_WARN_UNREACHABLE + 1);
-  for (int status = FUGE_ERR_LAW; status <= FUGE_WARN_UNREACHABLE; status++) {
+  const char *unknown = fuge_status_text(FUGE_WARN_ACCURACY + 1);
+  for (int status = FUGE_ERR_LAW; status <= FUGE_WARN_ACCURACY; status++) {
     const char *meaning = fuge_status_text(status);
     CHECK(meaning != NULL && strlen(meaning) > 0);
     CHECK(strcmp(meaning, unknown) != 0);
@@ -25,7 +25,7 @@ static void test_status_texts(void) {
 }
 
 static void test_unknown_status(void) {
-  const int unknown[] = {FUGE_WARN_UNREACHABLE + 1, FUGE_ERR_LAW - 1, INT_MAX, INT_MIN};
+  const int unknown[] = {FUGE_WARN_ACCURACY + 1, FUGE_ERR_LAW - 1, INT_MAX, INT_MIN};
   for (int k = 0; k < 4; k++) CHECK_STRING(fuge_status_text(unknown[k]), "unknown status");
 }
 

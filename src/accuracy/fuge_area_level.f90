@@ -1,0 +1,260 @@
+!> One grid on the way to an area of contact of a wanted error.
+module fuge_area_level
+  use fuge_cell_elements, only: FUGE_MEAN
+  use fuge_gap_function_type, only: fuge_gap_function, sample_gap
+  use fuge_halfspace_fft, only: fuge_halfspace_operator
+  use fuge_kinds, only: dp
+  use fuge_options_type, only: fuge_options
+  use fuge_pressing_type, only: fuge_pressing, pose_problem
+  use fuge_problem_type, only: fuge_problem, fuge_solution
+  use fuge_solver_type, only: fuge_solver
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE
+  implicit none
+  private
+
+  public :: area_level, jumps_at_rim, misses_contact, solve_area_level
+
+  !> Equal cells on a rectangle, and the contact on them.
+  type :: area_level
+    !> Ends of the rectangle, length, and numbers of cells along x and y.
+    real(dp) :: lower(2) = 0.0_dp, upper(2) = 0.0_dp
+    integer :: cells(2) = 0
+    !> Mean initial gaps of the cells, (cells(1)*cells(2)), length.
+    real(dp), allocatable :: gap(:)
+    type(fuge_solution) :: solution
+  contains
+    procedure :: widths
+    procedure :: centres
+  end type area_level
+
+  !> Samples of an open cell, in each direction, that look for contacts which its mean gap hides.
+  integer, parameter :: LOOKS = 4
+  !> A gap is negative, and jumps, if it is so by this part of how far the bodies overlap without deformation; and if it
+  !> is so many times as steep as beside the place.
+  real(dp), parameter :: NEGATIVE = 1.0e-2_dp, LEAST_JUMP = 0.1_dp, STEEPER = 8.0_dp
+
+contains
+
+  !> Widths of the cells, length.
+  pure function widths(self)
+    class(area_level), intent(in) :: self
+    real(dp) :: widths(2)
+
+    widths = (self%upper - self%lower)/real(self%cells, dp)
+  end function widths
+
+  !> Centres of the cells along x, `direction` 1, or y, 2; length.
+  pure function centres(self, direction)
+    class(area_level), intent(in) :: self
+    integer, intent(in) :: direction
+    real(dp) :: centres(self%cells(direction))
+    integer :: k
+
+    associate (low => self%lower(direction), high => self%upper(direction), n => self%cells(direction))
+      centres = [(low + (high - low)*((real(k, dp) - 0.5_dp)/real(n, dp)), k=1, n)]
+    end associate
+  end function centres
+
+  !> Solve on the cells of `level`, by FFT. Errors: those of the gap function, of the operator and of the solver,
+  !> FUGE_ERR_MEMORY.
+  subroutine solve_area_level(gap, pressing, level, info)
+    class(fuge_gap_function), intent(in) :: gap
+    type(fuge_pressing), intent(in) :: pressing
+    type(area_level), intent(inout) :: level
+    type(fuge_info), intent(inout) :: info
+    type(fuge_halfspace_operator) :: operator
+    type(fuge_problem) :: problem
+    type(fuge_options) :: options
+    type(fuge_solver) :: solver
+    real(dp) :: width(2)
+
+    call average_gaps(gap, level, info)
+    if (info%failed()) return
+    width = level%widths()
+    if (allocated(pressing%layers)) then
+      call operator%set(level%cells(1), level%cells(2), width(1), width(2), pressing%layers%e_star(), info, FUGE_MEAN, &
+                        pressing%boundary, body=pressing%layers%surface())
+    else
+      call operator%set(level%cells(1), level%cells(2), width(1), width(2), pressing%e_star, info, FUGE_MEAN, &
+                        pressing%boundary)
+    end if
+    if (info%failed()) return
+    call pose_problem(pressing, level%gap, problem, options)
+    call solver%solve(operator, problem, level%solution, info, options)
+    ! What the solver remarks on the rim is part of the result.
+    if (info%status == FUGE_DONE) call report(info, FUGE_DONE, '')
+  end subroutine solve_area_level
+
+  !> The mean gaps of the cells, by the rule of Gauss with two places in each direction.
+  subroutine average_gaps(gap, level, info)
+    class(fuge_gap_function), intent(in) :: gap
+    type(area_level), intent(inout) :: level
+    type(fuge_info), intent(inout) :: info
+    real(dp), parameter :: PLACES(2) = [-0.5_dp, 0.5_dp]/sqrt(3.0_dp)
+    real(dp), allocatable :: height(:)
+    integer :: i, j, n, stat
+
+    n = product(level%cells)
+    if (allocated(level%gap)) deallocate (level%gap)
+    allocate (level%gap(n), height(n), stat=stat)
+    call require_memory(stat, 'the gaps of', n, 'cells', info)
+    if (stat /= 0) return
+    level%gap = 0.0_dp
+    do j = 1, 2
+      do i = 1, 2
+        call sample_cells(gap, level, [PLACES(i), PLACES(j)], height, info)
+        if (info%failed()) return
+        level%gap = level%gap + 0.25_dp*height
+      end do
+    end do
+  end subroutine average_gaps
+
+  !> The gap of every cell at the same `place` (2) from its centre, in widths of a cell.
+  subroutine sample_cells(gap, level, place, height, info)
+    class(fuge_gap_function), intent(in) :: gap
+    type(area_level), intent(in) :: level
+    real(dp), intent(in) :: place(2)
+    real(dp), intent(out) :: height(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp) :: width(2), across(level%cells(1)), along(level%cells(2))
+    real(dp), allocatable :: x(:), y(:)
+    integer :: j, stat
+
+    width = level%widths()
+    across = level%centres(1) + place(1)*width(1)
+    along = level%centres(2) + place(2)*width(2)
+    associate (nx => level%cells(1))
+      allocate (x(size(height)), y(size(height)), stat=stat)
+      call require_memory(stat, 'the places of', size(height), 'cells', info)
+      if (stat /= 0) return
+      do j = 1, level%cells(2)
+        x(nx*(j - 1) + 1:nx*j) = across
+        y(nx*(j - 1) + 1:nx*j) = along(j)
+      end do
+    end associate
+    call sample_gap(gap, x, y, height, info)
+  end subroutine sample_cells
+
+  !> Is the gap under load negative somewhere in an open cell, between the samples that the solve knows? The
+  !> displacements are taken from the centres of the cells, which does not do beside a contact. Errors: those of the gap
+  !> function, FUGE_ERR_MEMORY.
+  subroutine misses_contact(gap, level, misses, info)
+    class(fuge_gap_function), intent(in) :: gap
+    type(area_level), intent(in) :: level
+    logical, intent(out) :: misses
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: moved(:), slope_x(:), slope_y(:), height(:)
+    logical, allocatable :: is_apart(:)
+    real(dp) :: place(2), least
+    integer :: i, j
+
+    misses = .false.
+    allocate (is_apart, source=cells_apart(level))
+    allocate (moved, source=level%solution%gap - level%gap)
+    allocate (slope_x(size(moved)), slope_y(size(moved)), height(size(moved)))
+    least = -NEGATIVE*max(0.0_dp, maxval(-moved) - minval(level%gap))
+    call find_slopes(level%cells, moved, slope_x, slope_y)
+    do j = 1, LOOKS
+      do i = 1, LOOKS
+        place = (real([i, j], dp) - 0.5_dp)/real(LOOKS, dp) - 0.5_dp
+        call sample_cells(gap, level, place, height, info)
+        if (info%failed()) return
+        height = height + moved + place(1)*slope_x + place(2)*slope_y
+        misses = any(height < least .and. is_apart)
+        if (misses) return
+      end do
+    end do
+  end subroutine misses_contact
+
+  !> Which cells, (n), are open, and so are their neighbours?
+  pure function cells_apart(level) result(is_apart)
+    type(area_level), intent(in) :: level
+    logical :: is_apart(size(level%gap))
+    logical :: touches(0:level%cells(1) + 1, 0:level%cells(2) + 1)
+    integer :: i, j
+
+    touches = .false.
+    touches(1:level%cells(1), 1:level%cells(2)) = reshape(level%solution%force > 0.0_dp, level%cells)
+    do j = 1, level%cells(2)
+      do i = 1, level%cells(1)
+        is_apart(level%cells(1)*(j - 1) + i) = .not. any(touches(i - 1:i + 1, j - 1:j + 1))
+      end do
+    end do
+  end function cells_apart
+
+  !> Differences of `values` over one cell along x and y, central ones but at the rim.
+  pure subroutine find_slopes(cells, values, slope_x, slope_y)
+    integer, intent(in) :: cells(2)
+    real(dp), intent(in) :: values(:)
+    real(dp), intent(out) :: slope_x(:), slope_y(:)
+    integer :: i, j, k, left, right, low, high
+
+    do j = 1, cells(2)
+      low = max(j - 1, 1)
+      high = min(j + 1, cells(2))
+      do i = 1, cells(1)
+        k = cells(1)*(j - 1) + i
+        left = max(i - 1, 1)
+        right = min(i + 1, cells(1))
+        slope_x(k) = (values(k + right - i) - values(k + left - i))/real(max(1, right - left), dp)
+        slope_y(k) = (values(k + cells(1)*(high - j)) - values(k + cells(1)*(low - j)))/real(max(1, high - low), dp)
+      end do
+    end do
+  end subroutine find_slopes
+
+  !> Does the initial gap jump at the rim of the contact? There the step from a cell in contact to an open one beside it
+  !> is many times those behind and before it. A cell that the jump crosses is left out, as its mean gap is between.
+  pure function jumps_at_rim(level) result(jumps)
+    type(area_level), intent(in) :: level
+    logical :: jumps
+    real(dp) :: least
+    integer :: k, nx, n
+
+    jumps = .false.
+    nx = level%cells(1)
+    n = product(level%cells)
+    associate (force => level%solution%force, gap => level%gap)
+      if (.not. any(force > 0.0_dp)) return
+      least = LEAST_JUMP*max(0.0_dp, maxval(gap - level%solution%gap) - minval(gap))
+      do k = 1, n, nx
+        if (.not. jumps) jumps = jumps_along(force(k:k + nx - 1) > 0.0_dp, gap(k:k + nx - 1), least)
+      end do
+      do k = 1, nx
+        if (.not. jumps) jumps = jumps_along(force(k:n:nx) > 0.0_dp, gap(k:n:nx), least)
+      end do
+    end associate
+  end function jumps_at_rim
+
+  !> The same along one row of cells, by at least `least`.
+  pure function jumps_along(touches, gap, least) result(jumps)
+    logical, intent(in) :: touches(:)
+    real(dp), intent(in) :: gap(:), least
+    logical :: jumps
+    real(dp) :: step, others
+    integer :: inside, outside, k
+
+    jumps = .false.
+    do k = 2, size(gap)
+      if (touches(k) .eqv. touches(k - 1)) cycle
+      inside = merge(k, k - 1, touches(k))
+      outside = 2*k - 1 - inside
+      associate (outwards => outside - inside)
+        step = abs(gap(outside) - gap(inside))
+        others = 0.0_dp
+        if (is_between(inside - outwards, size(gap))) others = abs(gap(inside) - gap(inside - outwards))
+        if (is_between(outside + 2*outwards, size(gap))) &
+          others = max(others, abs(gap(outside + 2*outwards) - gap(outside + outwards)))
+      end associate
+      jumps = step > max(least, STEEPER*others)
+      if (jumps) return
+    end do
+  end function jumps_along
+
+  pure function is_between(k, n)
+    integer, intent(in) :: k, n
+    logical :: is_between
+
+    is_between = k >= 1 .and. k <= n
+  end function is_between
+
+end module fuge_area_level
