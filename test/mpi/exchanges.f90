@@ -1,9 +1,11 @@
-! The exchange of points of a line, its segments and its groups of cells do not depend on how ranks share the line.
+! The exchange of points of a line, its segments, its groups of cells, and what extends the contact set of an area do
+! not depend on how ranks share the line or the rows.
 program exchanges
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: dp, sp
   use fuge_level_groups, only: add_to_groups, compute_group_means, subtract_from_groups, sum_over_groups, GROUP
   use fuge_mpi, only: fuge_mpi_halfplane_operator
   use fuge_set_exchange, only: exchange_extrapolated
+  use fuge_set_extension, only: set_extension
   use fuge_shared_exchange, only: count_segments, exchange_in_line
   use fuge_shared_rows, only: shared_rows
   use fuge_status, only: fuge_info, FUGE_DONE
@@ -11,7 +13,7 @@ program exchanges
   use rank_checks, only: begin_checks, end_checks, expect
   implicit none
 
-  integer, parameter :: TRIALS = 1500
+  integer, parameter :: TRIALS = 1500, AREAS = 60
 
   call begin_checks()
   call run()
@@ -39,7 +41,49 @@ contains
       call compare_sets(n, 1 + int(12*random(2)), 0.2_dp + 0.8_dp*random(3), rows)
       if (modulo(trial, 10) == 0) call compare_groups(8*n, rows)
     end do
+    ! Of some grids ranks share two coarser ones, of others one or none.
+    do trial = 1, AREAS
+      call random_number(random)
+      call compare_extensions([32 + int(600*random(1)), 32 + int(600*random(2))], random(3), rows)
+    end do
   end subroutine run
+
+  ! Values of a random set extended to the cells of an area and collected from there, by one process and by ranks.
+  subroutine compare_extensions(cells, density, rows)
+    integer, intent(in) :: cells(2)
+    real(dp), intent(in) :: density
+    type(shared_rows), intent(inout) :: rows
+    type(set_extension) :: alone, shared
+    type(shared_rows) :: all_rows
+    type(fuge_info) :: info
+    real(dp), allocatable :: random(:)
+    real(sp), allocatable :: here(:), values(:)
+    logical, allocatable :: contact(:)
+    integer :: first, last
+
+    allocate (random(product(cells)))
+    call random_number(random)
+    contact = random < density**3
+    call random_number(random)
+    values = merge(real(random - 0.5_dp, sp), 0.0_sp, contact)
+    call share(cells(2), rows)
+    rows%cells = cells
+    first = cells(1)*(rows%first(rows%number()) - 1) + 1
+    last = cells(1)*(rows%first(rows%number() + 1) - 1)
+    here = values(first:last)
+    call alone%set(all_rows, cells, contact, info)
+    call shared%set(rows, cells, contact(first:last), info)
+    call alone%extend(values, info)
+    call shared%extend(here, info)
+    call expect(info%status == FUGE_DONE, trim(info%message))
+    call expect(all(abs(here - values(first:last)) <= 1.0e-6_sp), 'extended values')
+    values = values*real(random, sp)
+    here = here*real(random(first:last), sp)
+    call alone%collect(values, info)
+    call shared%collect(here, info)
+    call expect(info%status == FUGE_DONE, trim(info%message))
+    call expect(all(abs(here - values(first:last)) <= 1.0e-5_sp*maxval(abs(values))), 'collected values')
+  end subroutine compare_extensions
 
   ! Any cells of each rank, or none.
   subroutine share(n, rows)

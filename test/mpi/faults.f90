@@ -1,7 +1,7 @@
 ! Operators and monitors that fail on one rank.
 module failing_ranks
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: dp, sp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_mpi, only: fuge_mpi_halfspace_operator
   implicit none
@@ -13,6 +13,7 @@ module failing_ranks
     integer, pointer :: count => null()
   contains
     procedure :: apply => apply_failing
+    procedure :: apply_single => apply_single_failing
   end type failing_operator
 
   ! Cancels the third iteration, or not.
@@ -36,6 +37,19 @@ contains
     status = self%failure
     if (status == 0) displacement(1) = ieee_value(1.0_dp, ieee_quiet_nan)
   end subroutine apply_failing
+
+  subroutine apply_single_failing(self, input, result, status)
+    class(failing_operator), intent(in) :: self
+    real(sp), intent(in) :: input(:)
+    real(sp), intent(out) :: result(:)
+    integer, intent(out) :: status
+
+    call self%fuge_mpi_halfspace_operator%apply_single(input, result, status)
+    self%count = self%count + 1
+    if (self%count < self%last .or. self%rank /= 1) return
+    status = self%failure
+    if (status == 0) result(1) = ieee_value(1.0_sp, ieee_quiet_nan)
+  end subroutine apply_single_failing
 
   subroutine cancel_third(self, iteration, residual, contacts, cancel)
     class(cancelling_monitor), intent(inout) :: self

@@ -2,6 +2,7 @@
 program laws
   use fuge_contact_states, only: FUGE_LIMITED_LOWER
   use fuge_halfplane_fft, only: fuge_halfplane_operator
+  use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_kinds, only: dp
   use fuge_mpi, only: fuge_mpi_halfplane_operator, fuge_mpi_halfspace_operator
   use fuge_operator_type, only: fuge_operator
@@ -9,7 +10,6 @@ program laws
   use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_LAW, FUGE_ERR_NO_EQUILIBRIUM, FUGE_ERR_OPTION, &
     FUGE_MESSAGE_LENGTH, FUGE_WARN_NOT_UNIQUE
-  use lone_rank, only: lone_surface
   use mpi_f08
   use rank_checks, only: begin_checks, check_solution, end_checks, expect, gather, my_rank
   implicit none
@@ -89,7 +89,7 @@ contains
     real(dp), intent(in) :: load
     integer, parameter :: NX = 205, NY = 190
     type(fuge_mpi_halfspace_operator) :: shared
-    type(lone_surface) :: whole
+    type(fuge_halfspace_operator) :: whole
     type(fuge_problem) :: problem, whole_problem
     type(fuge_info) :: info
     integer :: rows(2)
@@ -99,7 +99,7 @@ contains
     rows = shared%own_rows()
     call fill(NX, NY, NX*(rows(1) - 1) + 1, shared%points(), parts, load, problem)
     if (my_rank() == 0) then
-      call whole%surface%set(NX, NY, 1.0_dp/NX, 1.0_dp/NX, 1.0_dp, info)
+      call whole%set(NX, NY, 1.0_dp/NX, 1.0_dp/NX, 1.0_dp, info)
       call fill(NX, NY, 1, NX*NY, parts, load, whole_problem)
     end if
     call compare(name, shared, whole, problem, whole_problem)

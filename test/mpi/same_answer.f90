@@ -1,5 +1,5 @@
-! The ranks of MPI_COMM_WORLD find the solution of one process without products in single precision: the same contact
-! set, forces and counts, on areas nearly.
+! The ranks of MPI_COMM_WORLD find the solution of one process: the same contact set, forces and counts, on areas
+! nearly.
 program same_answer
   use fuge_cell_elements, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_fft, only: fuge_halfspace_operator
@@ -7,7 +7,6 @@ program same_answer
   use fuge_mpi, only: fuge_mpi_halfspace_operator
   use fuge_problem_type, only: fuge_problem
   use fuge_status, only: fuge_info, FUGE_DONE
-  use lone_rank, only: lone_surface
   use mpi_f08
   use rank_checks, only: begin_checks, check_solves, end_checks, expect, gather, my_rank
   implicit none
@@ -94,7 +93,7 @@ contains
     integer, intent(in) :: nx, ny, boundary, solves
     real(dp), intent(in) :: curvature, load
     type(fuge_mpi_halfspace_operator) :: shared
-    type(lone_surface) :: whole
+    type(fuge_halfspace_operator) :: whole
     type(fuge_problem) :: problem, whole_problem
     type(fuge_info) :: info
     integer :: rows(2)
@@ -107,7 +106,7 @@ contains
     call fill_gap(nx, ny, rows(1), rows(2), curvature, problem%gap)
     problem%resultant = [load]
     if (my_rank() == 0) then
-      call whole%surface%set(nx, ny, 1.0_dp/max(nx, ny), 1.0_dp/max(nx, ny), 1.0_dp, info, boundary=boundary)
+      call whole%set(nx, ny, 1.0_dp/max(nx, ny), 1.0_dp/max(nx, ny), 1.0_dp, info, boundary=boundary)
       allocate (whole_problem%gap(nx*ny))
       call fill_gap(nx, ny, 1, ny, curvature, whole_problem%gap)
       whole_problem%resultant = [load]

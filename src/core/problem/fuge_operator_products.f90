@@ -42,11 +42,14 @@ contains
     real(sp), intent(in) :: force(:)
     real(sp), intent(out), contiguous :: displacement(:)
     type(fuge_info), intent(inout) :: info
+    type(point_space) :: space
     integer :: status
 
     call operator%apply_single(force, displacement, status)
     info%products = info%products + 1
     if (status /= FUGE_DONE) call report_status(status, 'product', info%products, info)
+    space = operator%ranks()
+    call space%agree(info)
   end subroutine multiply_single
 
   !> As `multiply`, with the size of the terms of each displacement, `magnitude` (n), length.
@@ -109,11 +112,14 @@ contains
     real(sp), intent(in) :: displacement(:)
     real(sp), intent(out), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
+    type(point_space) :: space
     integer :: status
 
     call operator%precondition_single(displacement, force, status)
     info%preconditionings = info%preconditionings + 1
     if (status /= FUGE_DONE) call report_status(status, 'preconditioner', info%preconditionings, info)
+    space = operator%ranks()
+    call space%agree(info)
   end subroutine precondition_single
 
   !> An error of the library keeps its meaning; any other status is the operator's own.

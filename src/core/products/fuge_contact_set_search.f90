@@ -40,6 +40,22 @@ module fuge_contact_set_search
   !> Tensions up to this many units in the last place of the largest force are rounding in any case.
   real(dp), parameter :: ROUNDINGS = 64.0_dp
 
+  !> What a search knows from one contact set to the next.
+  type :: set_search
+    type(contact_preconditioner) :: preconditioner
+    type(stall_counter) :: stalls
+    !> The residual of the last confirmation.
+    real(dp) :: previous_residual = huge(1.0_dp)
+    !> The set is solved to the tolerance, not just until it can be judged.
+    logical :: to_tolerance = .false.
+    !> The displacements are those of a product with feasible forces.
+    logical :: fresh = .true.
+    !> Projected gradients have been tried.
+    logical :: descended = .false.
+    !> The set is found, or nothing is left to try.
+    logical :: done = .false.
+  end type set_search
+
 contains
 
   !> Find the contact set of one grid and its forces.
@@ -54,11 +70,9 @@ contains
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
-    type(contact_preconditioner) :: preconditioner
-    real(dp) :: previous_residual
-    type(stall_counter) :: stalls
-    integer :: cells(2), products, wrong
-    logical :: confirmed, descended, descends, found, fresh, in_row, in_single, prepared, to_tolerance, undetermined
+    type(set_search) :: search
+    integer :: wrong
+    logical :: found, in_single, prepared
 
     prepared = settings%prepared
     in_single = suits_single(operator, scene)
@@ -69,93 +83,149 @@ contains
       prepared = .false.
       iterate%projection%needs_basis = .true.
     end if
-    cells = operator%grid()
-    in_row = all(cells > 0) .and. any(cells == 1)
-    descended = .false.
-    call stalls%start(MAX_STALLS)
-    previous_residual = huge(previous_residual)
-    to_tolerance = .false.
-    if (carry_just_the_load(scene)) then
-      call start_at_limits(operator, scene, iterate, info)
-      if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
-    else if (.not. prepared) then
-      call choose_contact(scene, iterate)
-      call make_feasible(operator, scene, iterate, info)
-    end if
-    fresh = .true.
-    do while (.not. info%failed())
-      undetermined = has_undetermined_forces(operator, scene, iterate, info)
-      if (undetermined .and. .not. info%failed()) then
-        call solve_complete_contact(operator, settings, preconditioner, scene, monitor, iterate, info)
-        if (info%failed()) exit
-        if (scene%rows%everywhere(all(iterate%contact))) exit
-        call stalls%spend()
+    call search%stalls%start(MAX_STALLS)
+    call choose_first_set(operator, scene, prepared, iterate, info)
+    do while (.not. (search%done .or. info%failed()))
+      if (has_undetermined_forces(operator, scene, iterate, info)) then
+        call solve_complete_contact(operator, settings, search%preconditioner, scene, monitor, iterate, info)
+        search%done = scene%rows%everywhere(all(iterate%contact))
+        call search%stalls%spend()
         cycle
       end if
       if (info%failed()) exit
-      products = info%products
-      call solve_on_contact_set(operator, settings, preconditioner, scene, to_tolerance, monitor, iterate, info)
-      if (info%failed()) exit
-      fresh = fresh .and. info%products == products
-      wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
-      if (settings%coarse_grid) then
-        if (wrong <= WRONG_ON_COARSE*scene%rows%total_count(count(iterate%contact))) exit
-      end if
-      if (wrong == 0) then
-        ! Without a step the displacements are still those of a product with feasible forces.
-        if (iterate%converged .and. fresh) exit
-        if (to_tolerance .or. iterate%converged) then
-          call confirm_contact_set(operator, settings, scene, previous_residual, iterate, confirmed, info)
-          if (info%failed()) exit
-          ! The lengths that decide may have been those of much larger forces at the start.
-          if (confirmed) wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
-          if (confirmed .and. wrong == 0) exit
-        end if
-        to_tolerance = .true.
-        if (wrong == 0) cycle
-      end if
-      to_tolerance = .false.
-      call stalls%spend()
-      call stalls%renew_if_fewer(wrong)
-      if (stalls%has_stalled()) then
-        if (scene%has_limits()) then
-          ! Forces to start from on a finer grid are worth no exchanges of single points.
-          if (settings%coarse_grid) exit
-          descends = scene%rows%everywhere(scene%fits_window() .and. .not. descended)
-          if (descends) then
-            descended = .true.
-            call set_feasible_start(operator, scene, iterate, info)
-            if (.not. info%failed()) call descend_within_limits(operator, scene, monitor, iterate, info)
-            if (info%failed()) exit
-            call choose_contact(scene, iterate)
-            call make_feasible(operator, scene, iterate, info)
-            iterate%least_compliance = 0.0_dp
-            previous_residual = huge(previous_residual)
-            fresh = .true.
-            call stalls%start(MAX_STALLS)
-            cycle
-          end if
-          call exchange_single_limits(operator, settings, preconditioner, scene, monitor, iterate, info)
-        else
-          call exchange_single_points(operator, settings, preconditioner, scene, monitor, iterate, info)
-        end if
-        exit
-      end if
-      if (scene%has_limits()) then
-        call exchange_limited_points(scene, penetration_noise(settings, iterate), iterate)
+      call solve_and_judge(operator, settings, scene, monitor, search, iterate, wrong, info)
+      if (search%done .or. wrong == 0 .or. info%failed()) cycle
+      call search%stalls%spend()
+      call search%stalls%renew_if_fewer(wrong)
+      if (search%stalls%has_stalled()) then
+        call leave_stall(operator, settings, scene, monitor, search, iterate, info)
       else
-        call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
-                                   in_row .and. 2*stalls%left > MAX_STALLS, iterate, info)
+        call choose_next_set(operator, settings, scene, search, iterate, info)
       end if
-      if (info%failed()) exit
-      iterate%least_compliance = 0.0_dp
-      ! The residual of another set tells nothing of this one.
-      previous_residual = huge(previous_residual)
-      call make_feasible(operator, scene, iterate, info)
-      fresh = .true.
     end do
-    info%preconditionings = info%preconditionings + ceiling(preconditioner%coarse_share)
+    info%preconditionings = info%preconditionings + ceiling(search%preconditioner%coarse_share)
   end subroutine find_contact_set
+
+  !> The first contact set, unless the iterate is `prepared`, and feasible forces on it. Errors: those of the operator,
+  !> FUGE_ERR_MEMORY.
+  subroutine choose_first_set(operator, scene, prepared, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in) :: scene
+    logical, intent(in) :: prepared
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+
+    if (carry_just_the_load(scene)) then
+      call start_at_limits(operator, scene, iterate, info)
+    else if (prepared) then
+      return
+    else
+      call choose_contact(scene, iterate)
+    end if
+    if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
+  end subroutine choose_first_set
+
+  !> Solve on the present set, and count its `wrong` points, on the finest grid by exact displacements before it is
+  !> `done`. Errors: those of find_contact_set.
+  subroutine solve_and_judge(operator, settings, scene, monitor, search, iterate, wrong, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in) :: scene
+    class(fuge_monitor), intent(inout) :: monitor
+    type(set_search), intent(inout) :: search
+    type(contact_iterate), intent(inout) :: iterate
+    integer, intent(out) :: wrong
+    type(fuge_info), intent(inout) :: info
+    integer :: products
+    logical :: confirmed
+
+    wrong = 0
+    products = info%products
+    call solve_on_contact_set(operator, settings, search%preconditioner, scene, search%to_tolerance, monitor, iterate, &
+                              info)
+    if (info%failed()) return
+    search%fresh = search%fresh .and. info%products == products
+    wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
+    if (settings%coarse_grid) search%done = wrong <= WRONG_ON_COARSE*scene%rows%total_count(count(iterate%contact))
+    ! Without a step the displacements are still those of a product with feasible forces.
+    if (wrong == 0) search%done = search%done .or. (iterate%converged .and. search%fresh)
+    if (search%done) return
+    if (wrong == 0 .and. (search%to_tolerance .or. iterate%converged)) then
+      call confirm_contact_set(operator, settings, scene, search%previous_residual, iterate, confirmed, info)
+      if (info%failed()) return
+      ! The lengths that decide may have been those of much larger forces at the start.
+      if (confirmed) wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
+      search%done = confirmed .and. wrong == 0
+    end if
+    search%to_tolerance = wrong == 0
+  end subroutine solve_and_judge
+
+  !> Exchange the wrong points, for feasible forces on another set. Errors: those of the operator, FUGE_ERR_MEMORY.
+  subroutine choose_next_set(operator, settings, scene, search, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in) :: scene
+    type(set_search), intent(inout) :: search
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+    integer :: cells(2)
+    logical :: in_row
+
+    if (scene%has_limits()) then
+      call exchange_limited_points(scene, penetration_noise(settings, iterate), iterate)
+    else
+      cells = operator%grid()
+      in_row = all(cells > 0) .and. any(cells == 1)
+      call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
+                                 in_row .and. 2*search%stalls%left > MAX_STALLS, iterate, info)
+    end if
+    if (info%failed()) return
+    call begin_new_set(search, iterate)
+    call make_feasible(operator, scene, iterate, info)
+  end subroutine choose_next_set
+
+  !> Residuals and compliances of another set tell nothing of this one.
+  pure subroutine begin_new_set(search, iterate)
+    type(set_search), intent(inout) :: search
+    type(contact_iterate), intent(inout) :: iterate
+
+    iterate%least_compliance = 0.0_dp
+    search%previous_residual = huge(search%previous_residual)
+    search%fresh = .true.
+  end subroutine begin_new_set
+
+  !> Where block exchanges make no progress: exchange single points to the end, after projected gradients where forces
+  !> have limits; on a coarser grid forces to start from are worth no exchanges of those. Errors: those of
+  !> find_contact_set.
+  subroutine leave_stall(operator, settings, scene, monitor, search, iterate, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in) :: scene
+    class(fuge_monitor), intent(inout) :: monitor
+    type(set_search), intent(inout) :: search
+    type(contact_iterate), intent(inout) :: iterate
+    type(fuge_info), intent(inout) :: info
+
+    search%done = .true.
+    if (.not. scene%has_limits()) then
+      call exchange_single_points(operator, settings, search%preconditioner, scene, monitor, iterate, info)
+      return
+    end if
+    if (settings%coarse_grid) return
+    search%done = .not. scene%rows%everywhere(scene%fits_window() .and. .not. search%descended)
+    if (search%done) then
+      call exchange_single_limits(operator, settings, search%preconditioner, scene, monitor, iterate, info)
+      return
+    end if
+    search%descended = .true.
+    call set_feasible_start(operator, scene, iterate, info)
+    if (.not. info%failed()) call descend_within_limits(operator, scene, monitor, iterate, info)
+    if (info%failed()) return
+    call choose_contact(scene, iterate)
+    call begin_new_set(search, iterate)
+    call search%stalls%start(MAX_STALLS)
+    call make_feasible(operator, scene, iterate, info)
+  end subroutine leave_stall
 
   !> Do all limits together carry just the load, which is 1?
   function carry_just_the_load(scene) result(carry)

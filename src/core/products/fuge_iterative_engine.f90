@@ -85,23 +85,11 @@ contains
     real(dp) :: force, length
     integer :: coarse_products, fine_products
     logical :: found
-    type(point_space) :: space
 
     history%started_warm = .false.
-    space = operator%ranks()
-    coarse_settings%limit = iteration_limit(options, space%total_count(operator%points()) + 1)
-    ! Beside what a spring gives way, displacements by the contact are small.
-    if (operator%translation_spring() > 0.0_dp) coarse_settings%tolerance = SPRING_SHARE*coarse_settings%tolerance
-    settings = coarse_settings
-    settings%tolerance = options%tolerance
-    settings%coarse_grid = .false.
+    call choose_settings(operator, options, coarse_settings, settings)
     call rows_of(operator, 0, scene%rows, info)
-    if (info%failed()) return
-    if (is_general(problem)) then
-      call set_general_scene(problem, canonical, scene, scaling, info)
-    else
-      call set_simple_scene(problem, scene, scaling, info)
-    end if
+    if (.not. info%failed()) call set_scene(problem, canonical, scene, scaling, info)
     if (info%failed()) return
     call check_approach(operator, problem, scene, info)
     if (.not. info%failed()) call try_warm_start(operator, problem, scene, scaling, history, iterate, info)
@@ -136,6 +124,37 @@ contains
     last%least_compliance = iterate%least_compliance
     last%tolerance = options%tolerance
   end subroutine solve_by_iteration
+
+  !> The scene of a problem; its rows are set. Errors: FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  subroutine set_scene(problem, canonical, scene, scaling, info)
+    type(fuge_problem), intent(in) :: problem
+    type(canonical_problem), intent(in) :: canonical
+    type(contact_scene), intent(inout) :: scene
+    type(scene_scaling), intent(out) :: scaling
+    type(fuge_info), intent(inout) :: info
+
+    if (is_general(problem)) then
+      call set_general_scene(problem, canonical, scene, scaling, info)
+    else
+      call set_simple_scene(problem, scene, scaling, info)
+    end if
+  end subroutine set_scene
+
+  !> The settings of the searches on coarser grids, and on the finest one.
+  subroutine choose_settings(operator, options, coarse, finest)
+    class(fuge_operator), intent(in) :: operator
+    type(fuge_options), intent(in) :: options
+    type(search_settings), intent(out) :: coarse, finest
+    type(point_space) :: space
+
+    space = operator%ranks()
+    coarse%limit = iteration_limit(options, space%total_count(operator%points()) + 1)
+    ! Beside what a spring gives way, displacements by the contact are small.
+    if (operator%translation_spring() > 0.0_dp) coarse%tolerance = SPRING_SHARE*coarse%tolerance
+    finest = coarse
+    finest%tolerance = options%tolerance
+    finest%coarse_grid = .false.
+  end subroutine choose_settings
 
   !> The estimated error of the forces, info%force_error, and a warning where two points are repeated, so that forces
   !> are not unique. `length` and `force` as from `find_rounding`. Errors: FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED, those of

@@ -4,7 +4,7 @@ module fuge_slab_halfspace
   use fuge_cell_elements, only: FUGE_FREE, FUGE_PERIODIC
   use fuge_halfspace_grid, only: check_grid, coarsened, complete, count_coarser, halfspace_grid, least_magnitude, &
     periodic, slope_of_waves
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: dp, sp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
   use fuge_point_space, only: point_space
@@ -42,6 +42,9 @@ module fuge_slab_halfspace
     procedure :: precondition
     procedure :: has_preconditioner_on_bed
     procedure :: precondition_on_bed
+    procedure :: has_single
+    procedure :: apply_single
+    procedure :: precondition_single
     procedure :: wave_slope
     procedure :: grid
     procedure :: coarsen
@@ -258,6 +261,38 @@ contains
     call self%check_sizes(size(displacement), size(force), status)
     if (status == FUGE_DONE) call self%products%precondition_on_bed(compliance, displacement, force, status)
   end subroutine precondition_on_bed
+
+  !> As that of `fuge_halfspace_operator`: true after `set`, unless the numbers of the spectra are out of the range of
+  !> single precision, or memory is short.
+  function has_single(self) result(single)
+    class(fuge_mpi_halfspace_operator), intent(in) :: self
+    logical :: single
+
+    single = associated(self%products)
+    if (single) single = self%products%has_single
+  end function has_single
+
+  !> `apply` in single precision. All ranks call it; `status` as for `apply`.
+  subroutine apply_single(self, input, result, status)
+    class(fuge_mpi_halfspace_operator), intent(in) :: self
+    real(sp), intent(in) :: input(:)
+    real(sp), intent(out) :: result(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(input), size(result), status)
+    if (status == FUGE_DONE) call self%products%multiply_single(input, result, status)
+  end subroutine apply_single
+
+  !> `precondition` in single precision. All ranks call it; `status` as for `apply`.
+  subroutine precondition_single(self, input, result, status)
+    class(fuge_mpi_halfspace_operator), intent(in) :: self
+    real(sp), intent(in) :: input(:)
+    real(sp), intent(out) :: result(:)
+    integer, intent(out) :: status
+
+    call self%check_sizes(size(input), size(result), status)
+    if (status == FUGE_DONE) call self%products%precondition_single(input, result, status)
+  end subroutine precondition_single
 
   !> As that of `fuge_halfspace_operator`.
   function wave_slope(self, levels) result(slope)

@@ -4,10 +4,14 @@ module fuge_slab_products
   use fuge_grid_plan, only: grid_plan
   use fuge_halfspace_grid, only: circle_of, cyclic, halfspace_grid
   use fuge_halfspace_spectra, only: bytes_needed, compute_spectra
-  use fuge_kinds, only: dp
+  use fuge_kinds, only: dp, sp
   use fuge_memory, only: check_memory
   use fuge_number_text, only: text
   use fuge_rank_communicator, only: free_communicator, members_here, rank_communicator, split_communicator
+  use fuge_single_grid_convolution, only: round_grid_kernel => round_kernel, single_grid_kernel => grid_kernel
+  use fuge_single_grid_plan, only: single_grid_plan => grid_plan
+  use fuge_single_slab_convolution, only: round_kernel, single_kernel => slab_kernel
+  use fuge_single_slab_plan, only: single_plan => slab_plan
   use fuge_slab_convolution, only: slab_kernel
   use fuge_slab_plan, only: slab_plan
   use fuge_slab_rows, only: active_ranks
@@ -22,12 +26,18 @@ module fuge_slab_products
   type :: shared_products
     type(slab_plan) :: plan
     type(slab_kernel) :: influence, inverse
+    !> The same in single precision, in the memory of the other plan.
+    type(single_plan) :: single
+    type(single_kernel) :: single_influence, single_inverse
   end type shared_products
 
   !> The only one.
   type :: whole_products
     type(grid_plan) :: plan
     type(grid_kernel) :: influence, inverse
+    !> The same in single precision.
+    type(single_grid_plan) :: single
+    type(single_grid_kernel) :: single_influence, single_inverse
   end type whole_products
 
   !> It must not be copied.
@@ -38,9 +48,13 @@ module fuge_slab_products
     !> Of these one is associated, on ranks that have rows.
     type(shared_products), pointer :: shared => null()
     type(whole_products), pointer :: whole => null()
+    !> All ranks have what products in single precision need.
+    logical, public :: has_single = .false.
   contains
     procedure :: multiply
+    procedure :: multiply_single
     procedure :: precondition
+    procedure :: precondition_single
     procedure :: precondition_on_bed
     procedure :: free
   end type slab_products
@@ -81,7 +95,47 @@ contains
       call prepare_whole(surface, length, measured, products%whole, info)
     end if
     call group%agree(info)
+    if (info%failed() .or. any(surface%cells < 2)) return
+    call prepare_single(surface, length, group, measured, products)
   end subroutine prepare_products
+
+  !> What products in single precision need. Where memory is short, or the numbers are out of range, on any rank, there
+  !> are none.
+  subroutine prepare_single(surface, length, group, measured, products)
+    type(halfspace_grid), intent(in) :: surface
+    integer, intent(in) :: length(2)
+    type(rank_communicator), intent(in) :: group
+    logical, intent(in) :: measured
+    type(slab_products), intent(inout) :: products
+    type(fuge_info) :: info
+    real(dp) :: failed(1)
+    integer :: status
+
+    status = FUGE_DONE
+    if (associated(products%shared)) then
+      associate (shared => products%shared)
+        call shared%single%set(products%holders, surface%cells, length, &
+                               .not. cyclic(surface) .and. surface%cells > 1, group%members(), measured, info, &
+                               shared%plan%memory(:2))
+        call products%holders%agree(info)
+        status = info%status
+        if (status == FUGE_DONE) call round_kernel(shared%inverse, shared%single, shared%single_inverse, status)
+        if (status == FUGE_DONE) call round_kernel(shared%influence, shared%single, shared%single_influence, status)
+      end associate
+    else if (associated(products%whole)) then
+      associate (whole => products%whole)
+        ! Lines of an odd number of cells would not be aligned.
+        status = merge(FUGE_DONE, 1, all(mod(length, 2) == 0))
+        if (status == FUGE_DONE) call whole%single%set(surface%cells, length, info, measured)
+        if (info%failed()) status = info%status
+        if (status == FUGE_DONE) call round_grid_kernel(whole%inverse, whole%single_inverse, status)
+        if (status == FUGE_DONE) call round_grid_kernel(whole%influence, whole%single_influence, status)
+      end associate
+    end if
+    failed = merge(0.0_dp, 1.0_dp, status == FUGE_DONE)
+    call group%raise(failed)
+    products%has_single = .not. failed(1) > 0.0_dp
+  end subroutine prepare_single
 
   !> What one of several ranks needs, of the `ranks` on which the rows are laid out, `holders` have any. Errors, on
   !> all these: FUGE_ERR_MEMORY.
@@ -134,6 +188,21 @@ contains
     end if
   end subroutine multiply
 
+  !> As `multiply`, in single precision; only where `has_single`.
+  subroutine multiply_single(self, force, displacement, status)
+    class(slab_products), intent(in) :: self
+    real(sp), intent(in), contiguous :: force(:)
+    real(sp), intent(inout), contiguous :: displacement(:)
+    integer, intent(out) :: status
+
+    status = FUGE_DONE
+    if (associated(self%shared)) then
+      call self%shared%single_influence%convolve(self%shared%single, force, displacement)
+    else if (associated(self%whole)) then
+      call self%whole%single_influence%convolve(self%whole%single, size(force), force, displacement, status)
+    end if
+  end subroutine multiply_single
+
   !> The preconditioner, both of the points of this rank. `status` as for `multiply`.
   subroutine precondition(self, displacement, force, status)
     class(slab_products), intent(in) :: self
@@ -148,6 +217,21 @@ contains
       call self%whole%inverse%convolve(self%whole%plan, size(force), displacement, force, status)
     end if
   end subroutine precondition
+
+  !> As `precondition`, in single precision; only where `has_single`.
+  subroutine precondition_single(self, displacement, force, status)
+    class(slab_products), intent(in) :: self
+    real(sp), intent(in), contiguous :: displacement(:)
+    real(sp), intent(inout), contiguous :: force(:)
+    integer, intent(out) :: status
+
+    status = FUGE_DONE
+    if (associated(self%shared)) then
+      call self%shared%single_inverse%convolve(self%shared%single, displacement, force)
+    else if (associated(self%whole)) then
+      call self%whole%single_inverse%convolve(self%whole%single, size(force), displacement, force, status)
+    end if
+  end subroutine precondition_single
 
   !> As `precondition`, on a bed of the `compliance`, length per force.
   subroutine precondition_on_bed(self, compliance, displacement, force, status)
@@ -171,6 +255,9 @@ contains
     if (associated(self%shared)) then
       call self%shared%influence%free()
       call self%shared%inverse%free()
+      call self%shared%single_influence%free()
+      call self%shared%single_inverse%free()
+      call self%shared%single%free()
       call self%shared%plan%free()
       deallocate (self%shared)
     end if

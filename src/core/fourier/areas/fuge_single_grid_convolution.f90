@@ -11,7 +11,7 @@ module fuge_single_grid_convolution
   implicit none
   private
 
-  public :: round_kernel
+  public :: round_kernel, LARGEST_EXPONENT
 
   !> The range of single precision has room for squares of numbers within 2 to this power.
   integer, parameter :: LARGEST_EXPONENT = 60

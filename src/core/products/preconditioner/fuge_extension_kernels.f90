@@ -69,12 +69,13 @@ contains
     end do
   end subroutine sum_pairs
 
-  !> Of the `m` rows of the coarser grid that which is next to row `j` of the finer one, besides that which holds it.
-  elemental function coarser_row(m, j) result(row)
-    integer, intent(in) :: m, j
+  !> The row of the coarser grid that is next to row `j` of the finer one, besides that which holds it; it may be beyond
+  !> the first or the last one.
+  elemental function coarser_row(j) result(row)
+    integer, intent(in) :: j
     integer :: row
 
-    row = modulo((j - 1)/2 + merge(-1, 1, modulo(j, 2) == 1), m) + 1
+    row = (j + 1)/2 + merge(-1, 1, modulo(j, 2) == 1)
   end function coarser_row
 
   !> Interpolate linearly between the centres of the coarser cells.

@@ -11,8 +11,9 @@
 !> 1. Its value is the mean of its cells weighted by their cover, and what is not covered is interpolated from the next
 !> coarser grid, zero on the coarsest. Grids are periodic, as those of the preconditioner of a free surface are too.
 !>
-!> Where ranks share the rows, each has its own of the finest grid and all of the coarser ones, to which each adds what
-!> its rows give.
+!> Where ranks share the rows of the finest grid, they share those of coarser ones too, as long as these have many
+!> cells: a coarse row belongs to the rank that has the first of its fine rows, and the ranks beside it have a copy, a
+!> halo. Of the grids below each rank has all rows, to which each adds what its rows give.
 module fuge_set_extension
   use fuge_extension_kernels, only: add_open_row, add_row, collect_row, coarser_row, fill_row, interpolate_row, &
     spread_row, sum_pairs, NEAR, NEXT
@@ -40,10 +41,15 @@ module fuge_set_extension
   integer, parameter :: COARSEST = 4
   !> Fewer cells are done by one thread: waking others would take as long.
   real(dp), parameter :: FEWEST_FOR_THREADS = 16384.0_dp
+  !> Ranks do not share the rows of coarser grids of fewer cells: messages would take as long.
+  integer, parameter :: FEWEST_SHARED = 16384
 
-  !> One grid.
+  !> One grid. Arrays have the rows first .. last, those of coarser grids that ranks share one more on each side.
   type :: extension_level
     integer :: cells(2) = 0
+    !> Who has which rows, and those that are here.
+    type(shared_rows) :: rows = shared_rows()
+    integer :: first = 1, last = 0
     real(sp), allocatable :: cover(:, :)
     !> What is extended, and one over the cover of its finer cells: not on the finest grid.
     real(sp), allocatable :: values(:, :), inverse(:, :)
@@ -55,9 +61,6 @@ module fuge_set_extension
     !> From the finest grid to the coarsest; so many of them are needed.
     type(extension_level), allocatable :: levels(:)
     integer :: depth = 0
-    type(shared_rows) :: rows = shared_rows()
-    !> The rows of the finest grid that are here, the first of them and how many.
-    integer :: first = 1, own = 0
   contains
     procedure :: set
     procedure :: extend
@@ -71,9 +74,9 @@ module fuge_set_extension
     real(sp), pointer, contiguous :: values(:, :) => null()
     logical, pointer, contiguous :: contact(:, :) => null()
     !> Rows to go over.
-    integer :: rows = 0
-    !> The rows of `fine` that are here: `own` after this many.
-    integer :: before = 0, own = 0
+    integer :: first = 1, last = 0
+    !> Beyond the last row of `fine` follows the first one; else rows beyond are in the halo.
+    logical :: wraps = .true.
     !> Of the cover, from `fine` to `coarse`.
     real(sp) :: cover_growth = GROWTH
     procedure(row_operation), pointer, nopass :: operation => null()
@@ -106,21 +109,22 @@ contains
     type(row_pass) :: pass
     integer :: l
 
-    call create_levels(self, rows, cells, size(contact)/cells(1), info)
+    call create_levels(self, rows, cells, info)
     if (info%failed()) return
     call point_to_level(self, 1, pass)
-    pass%contact(1:cells(1), 1:self%own) => contact
-    call pass%go(mark_cells, self%own)
+    pass%contact(1:cells(1), pass%fine%first:pass%fine%last) => contact
+    call pass%go(mark_cells, pass%fine%first, pass%fine%last)
     do l = 1, size(self%levels)
       self%depth = l
       if (l == size(self%levels)) exit
       if (.not. rows%anywhere(any(self%levels(l)%cover < 1.0_sp))) exit
       call point_to_level(self, l, pass)
       if (present(slope)) pass%cover_growth = growth_of(slope(min(l, size(slope)) - 1))
-      call pass%go(sum_cover, pass%coarse%cells(2))
-      if (l == 1) call add_of_ranks(self, pass%coarse%inverse, info)
+      call pass%go(sum_cover, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
+      call add_up(pass%fine, pass%coarse, pass%coarse%inverse, info)
+      if (.not. info%failed()) call fetch_halo(pass%coarse, pass%coarse%inverse, info)
       if (info%failed()) return
-      call pass%go(cover_cells, pass%coarse%cells(2))
+      call pass%go(cover_cells, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
     end do
     if (self%depth == 1) return
     ! The rest of the coarsest cells is filled with zero.
@@ -146,24 +150,17 @@ contains
     slope = [(operator%wave_slope(l), l=0, LEVELS)]
   end function wave_slopes
 
-  !> Create the grids, unless they are there; `own` rows of the finest are here.
-  subroutine create_levels(self, rows, cells, own, info)
+  !> Create the grids, unless they are there; `rows` are those of the finest one.
+  subroutine create_levels(self, rows, cells, info)
     class(set_extension), intent(inout) :: self
     type(shared_rows), intent(in) :: rows
-    integer, intent(in) :: cells(2), own
+    integer, intent(in) :: cells(2)
     type(fuge_info), intent(inout) :: info
-    integer :: count, l, range(2), stat
+    integer :: count, halo, l, stat
 
     if (allocated(self%levels)) then
       if (all(self%levels(1)%cells == cells)) return
       deallocate (self%levels)
-    end if
-    self%rows = rows
-    self%own = own
-    self%first = 1
-    if (.not. rows%is_alone()) then
-      range = rows%own()
-      self%first = range(1)
     end if
     count = 1
     do while (any(coarser_cells(cells, count - 1) > COARSEST))
@@ -172,11 +169,21 @@ contains
     allocate (self%levels(count), stat=stat)
     do l = 1, count
       if (stat /= 0) exit
-      self%levels(l)%cells = coarser_cells(cells, l - 1)
-      associate (n => self%levels(l)%cells)
-        allocate (self%levels(l)%cover(n(1), merge(own, n(2), l == 1)), stat=stat)
+      associate (level => self%levels(l))
+        level%cells = coarser_cells(cells, l - 1)
+        if (l == 1) level%rows = rows
+        if (l > 1) call share_rows(self%levels(l - 1)%rows, level)
+        level%last = level%cells(2)
+        halo = 0
+        if (.not. level%rows%is_alone()) then
+          halo = merge(0, 1, l == 1)
+          level%first = level%rows%first(rows%number())
+          level%last = level%rows%first(rows%number() + 1) - 1
+        end if
+        allocate (level%cover(level%cells(1), level%first - halo:level%last + halo), stat=stat)
         if (l == 1 .or. stat /= 0) cycle
-        allocate (self%levels(l)%values(n(1), n(2)), self%levels(l)%inverse(n(1), n(2)), stat=stat)
+        allocate (level%values(level%cells(1), level%first - halo:level%last + halo), &
+                  level%inverse(level%cells(1), level%first - halo:level%last + halo), stat=stat)
       end associate
     end do
     if (stat /= 0 .and. allocated(self%levels)) deallocate (self%levels)
@@ -185,28 +192,114 @@ contains
     if (info%failed() .and. allocated(self%levels)) deallocate (self%levels)
   end subroutine create_levels
 
-  !> Add up over the ranks what each has given to the coarser grid of the finest one. Error: FUGE_ERR_MEMORY.
-  subroutine add_of_ranks(self, values, info)
-    class(set_extension), intent(in) :: self
+  !> Share the rows of the grid `level` as those of the next finer one, `fine`, if it has enough cells.
+  subroutine share_rows(fine, level)
+    type(shared_rows), intent(in) :: fine
+    type(extension_level), intent(inout) :: level
+
+    if (fine%is_alone() .or. product(level%cells) < FEWEST_SHARED) return
+    level%rows = fine
+    level%rows%cells = level%cells
+    level%rows%first = (fine%first + 2)/2
+  end subroutine share_rows
+
+  !> Add up the rows of `values`, of the grid `coarse`, which each rank has found from its rows of `fine`. Error:
+  !> FUGE_ERR_MEMORY.
+  subroutine add_up(fine, coarse, values, info)
+    type(extension_level), intent(in) :: fine, coarse
+    real(sp), intent(inout), allocatable :: values(:, :)
+    type(fuge_info), intent(inout) :: info
+
+    if (.not. coarse%rows%is_alone()) then
+      call collect_halo(coarse, coarse%first - 1, values, info)
+      if (.not. info%failed()) call collect_halo(coarse, coarse%last + 1, values, info)
+    else if (.not. fine%rows%is_alone()) then
+      call add_all_rows(fine%rows, values, info)
+    end if
+  end subroutine add_up
+
+  !> Add up all rows over the ranks. Error: FUGE_ERR_MEMORY.
+  subroutine add_all_rows(rows, values, info)
+    type(shared_rows), intent(in) :: rows
     real(sp), intent(inout), contiguous :: values(:, :)
     type(fuge_info), intent(inout) :: info
     real(dp), allocatable :: sums(:)
     integer :: j, n, stat
 
-    if (self%rows%is_alone()) return
     allocate (sums(size(values)), stat=stat)
     call require_memory(stat, 'the extension of a contact set of', size(values), 'coarser cells', info)
-    call self%rows%agree(info)
+    call rows%agree(info)
     if (info%failed()) return
     n = size(values, 1)
     do j = 1, size(values, 2)
       sums(n*(j - 1) + 1:n*j) = real(values(:, j), dp)
     end do
-    call self%rows%add(sums)
+    call rows%add(sums)
     do j = 1, size(values, 2)
       values(:, j) = real(sums(n*(j - 1) + 1:n*j), sp)
     end do
-  end subroutine add_of_ranks
+  end subroutine add_all_rows
+
+  !> Add row number `row` of the halo of each rank to that of the rank that has it. Error: FUGE_ERR_MEMORY.
+  subroutine collect_halo(level, row, values, info)
+    type(extension_level), intent(in) :: level
+    integer, intent(in) :: row
+    real(sp), intent(inout), allocatable :: values(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: sums(:)
+    integer :: j, n
+    integer :: wanted(level%rows%members())
+
+    n = level%cells(1)
+    wanted = halo_rows(level, row)
+    call level%rows%collect(n, real(values(:, row), dp), wanted, wanted, sums, info)
+    if (info%failed()) return
+    do j = level%first, level%last
+      values(:, j) = values(:, j) + real(sums(n*(j - level%first) + 1:n*(j - level%first + 1)), sp)
+    end do
+  end subroutine collect_halo
+
+  !> Copy the rows of the halo from the ranks that have them; nothing where all rows are here. Error: FUGE_ERR_MEMORY.
+  subroutine fetch_halo(level, values, info)
+    type(extension_level), intent(in) :: level
+    real(sp), intent(inout), allocatable :: values(:, :)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: own(:), row(:)
+    integer :: wanted(level%rows%members())
+    integer :: j, n, side, stat
+
+    if (level%rows%is_alone()) return
+    n = level%cells(1)
+    allocate (own(n*(level%last - level%first + 1)), stat=stat)
+    call require_memory(stat, 'the extension of a contact set of', size(values), 'coarser cells', info)
+    call level%rows%agree(info)
+    if (info%failed()) return
+    do j = level%first, level%last
+      own(n*(j - level%first) + 1:n*(j - level%first + 1)) = real(values(:, j), dp)
+    end do
+    do side = level%first - 1, level%last + 1, level%last - level%first + 2
+      wanted = halo_rows(level, side)
+      call level%rows%fetch(n, own, wanted, wanted, row, info)
+      if (info%failed()) return
+      values(:, side) = real(row, sp)
+    end do
+  end subroutine fetch_halo
+
+  !> Which row of the grid that of the halo of each rank is, before its own rows or after them as `row` of this rank.
+  pure function halo_rows(level, row) result(rows)
+    type(extension_level), intent(in) :: level
+    integer, intent(in) :: row
+    integer :: rows(level%rows%members())
+    integer :: ranks
+
+    ranks = level%rows%members()
+    if (row < level%first) then
+      rows = level%rows%first(0:ranks - 1) - 1
+    else
+      rows = level%rows%first(1:ranks)
+    end if
+    rows = modulo(rows - 1, level%cells(2)) + 1
+  end function halo_rows
 
   !> The `cover` (n) of the points: 1 on the set, 0 off it.
   subroutine point_to_cover(self, cover)
@@ -227,13 +320,15 @@ contains
 
     do l = 1, self%depth - 1
       call point_to(self, l, values, pass)
-      call pass%go(average_cells, pass%coarse%cells(2))
-      if (l == 1) call add_of_ranks(self, pass%coarse%values, info)
+      call pass%go(average_cells, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
+      call add_up(pass%fine, pass%coarse, pass%coarse%values, info)
       if (info%failed()) return
     end do
     do l = self%depth - 1, 1, -1
       call point_to(self, l, values, pass)
-      call pass%go(fill_cells, pass%own)
+      call fetch_halo(pass%coarse, pass%coarse%values, info)
+      if (info%failed()) return
+      call pass%go(fill_cells, pass%fine%first, pass%fine%last)
     end do
   end subroutine extend
 
@@ -248,13 +343,15 @@ contains
 
     do l = 1, self%depth - 1
       call point_to(self, l, values, pass)
-      call pass%go(collect_cells, pass%coarse%cells(2))
-      if (l == 1) call add_of_ranks(self, pass%coarse%values, info)
+      call pass%go(collect_cells, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
+      call add_up(pass%fine, pass%coarse, pass%coarse%values, info)
       if (info%failed()) return
     end do
     do l = self%depth - 1, 1, -1
       call point_to(self, l, values, pass)
-      call pass%go(spread_cells, pass%own)
+      call fetch_halo(pass%coarse, pass%coarse%values, info)
+      if (info%failed()) return
+      call pass%go(spread_cells, pass%fine%first, pass%fine%last)
     end do
   end subroutine collect
 
@@ -269,34 +366,33 @@ contains
     if (l > 1) then
       pass%values => self%levels(l)%values
     else
-      pass%values(1:pass%fine%cells(1), 1:pass%own) => values
+      pass%values(1:pass%fine%cells(1), pass%fine%first:pass%fine%last) => values
     end if
   end subroutine point_to
 
-  !> Point a pass to the rows of level `l` that are here, and to the next level, if there is one.
+  !> Point a pass to level `l` and to the next one, if there is one.
   subroutine point_to_level(self, l, pass)
     class(set_extension), intent(in), target :: self
     integer, intent(in) :: l
     type(row_pass), intent(inout) :: pass
 
     pass%fine => self%levels(l)
-    if (l < size(self%levels)) pass%coarse => self%levels(l + 1)
-    pass%before = 0
-    pass%own = pass%fine%cells(2)
-    if (l > 1) return
-    pass%before = self%first - 1
-    pass%own = self%own
+    if (l == size(self%levels)) return
+    pass%coarse => self%levels(l + 1)
+    pass%wraps = pass%coarse%rows%is_alone()
   end subroutine point_to_level
 
-  !> Do `operation` on the rows 1 .. `rows`.
-  subroutine go(self, operation, rows)
+  !> Do `operation` on the rows `first` .. `last`.
+  subroutine go(self, operation, first, last)
     class(row_pass), intent(inout) :: self
     procedure(row_operation) :: operation
-    integer, intent(in) :: rows
-    integer :: parts
+    integer, intent(in) :: first, last
+    integer :: parts, rows
 
     self%operation => operation
-    self%rows = rows
+    self%first = first
+    self%last = last
+    rows = last - first + 1
     parts = 1
     if (real(self%fine%cells(1), dp)*rows >= FEWEST_FOR_THREADS) parts = min(threads_here(), rows)
     call run_in_parts(parts, self)
@@ -307,8 +403,8 @@ contains
     integer, intent(in) :: part, parts
     integer :: first, j, last
 
-    call share(self%rows, part, parts, first, last)
-    do j = first + 1, last + 1
+    call share(self%last - self%first + 1, part, parts, first, last)
+    do j = self%first + first, self%first + last
       call self%operation(self, j)
     end do
   end subroutine do_part
@@ -330,7 +426,7 @@ contains
 
     pair = 0.0_sp
     associate (n => pass%fine%cells(1))
-      do k = max(2*j - 1 - pass%before, 1), min(2*j - pass%before, pass%own)
+      do k = max(2*j - 1, pass%fine%first), min(2*j, pass%fine%last)
         pair(:n) = pair(:n) + pass%fine%cover(:, k)
       end do
     end associate
@@ -341,11 +437,12 @@ contains
   subroutine cover_cells(pass, j)
     class(row_pass), intent(inout) :: pass
     integer, intent(in) :: j
-    integer :: i
+    integer :: i, rows
 
     associate (n => pass%fine%cells, inverse => pass%coarse%inverse, cover => pass%coarse%cover)
+      rows = fine_cells(n(2), modulo(j - 1, pass%coarse%cells(2)) + 1)
       do i = 1, size(inverse, 1)
-        cover(i, j) = min(pass%cover_growth*inverse(i, j)/real(fine_cells(n(1), i)*fine_cells(n(2), j), sp), 1.0_sp)
+        cover(i, j) = min(pass%cover_growth*inverse(i, j)/real(fine_cells(n(1), i)*rows, sp), 1.0_sp)
         if (inverse(i, j) > 0.0_sp) inverse(i, j) = 1.0_sp/inverse(i, j)
       end do
     end associate
@@ -368,7 +465,7 @@ contains
 
     pair = 0.0_sp
     associate (n => pass%fine%cells(1))
-      do k = max(2*j - 1 - pass%before, 1), min(2*j - pass%before, pass%own)
+      do k = max(2*j - 1, pass%fine%first), min(2*j, pass%fine%last)
         call add_row(n, pass%fine%cover(:, k), pass%values(:, k), pair(:n))
       end do
     end associate
@@ -381,9 +478,12 @@ contains
     class(row_pass), intent(inout) :: pass
     integer, intent(in) :: j
     real(sp) :: filling(2*pass%coarse%cells(1)), row(pass%coarse%cells(1))
+    integer :: next_row
 
-    associate (n => pass%fine%cells, m => pass%coarse%cells, values => pass%coarse%values, k => j + pass%before)
-      row = NEAR*values(:, (k + 1)/2) + NEXT*values(:, coarser_row(m(2), k))
+    associate (n => pass%fine%cells, m => pass%coarse%cells, values => pass%coarse%values)
+      next_row = coarser_row(j)
+      if (pass%wraps) next_row = modulo(next_row - 1, m(2)) + 1
+      row = NEAR*values(:, (j + 1)/2) + NEXT*values(:, next_row)
       call interpolate_row(m(1), row, filling)
       call fill_row(n(1), pass%fine%cover(:, j), filling(:n(1)), pass%values(:, j))
     end associate
@@ -394,13 +494,16 @@ contains
     class(row_pass), intent(inout) :: pass
     integer, intent(in) :: j
     real(sp) :: rows(2*pass%coarse%cells(1))
+    integer :: beside(2)
 
     rows = 0.0_sp
+    beside = [2*j - 2, 2*j + 1]
+    if (pass%wraps) beside = modulo(beside - 1, 2*pass%coarse%cells(2)) + 1
     associate (m => pass%coarse%cells)
       call add_open(pass, NEAR, 2*j - 1, rows)
       call add_open(pass, NEAR, 2*j, rows)
-      call add_open(pass, NEXT, modulo(2*j - 3, 2*m(2)) + 1, rows)
-      call add_open(pass, NEXT, modulo(2*j, 2*m(2)) + 1, rows)
+      call add_open(pass, NEXT, beside(1), rows)
+      call add_open(pass, NEXT, beside(2), rows)
       call collect_row(m(1), rows, pass%coarse%values(:, j))
     end associate
   end subroutine collect_cells
@@ -412,9 +515,9 @@ contains
     integer, intent(in) :: k
     real(sp), intent(inout) :: rows(:)
 
-    associate (n => pass%fine%cells(1), here => k - pass%before)
-      if (here < 1 .or. here > pass%own) return
-      call add_open_row(n, weight, pass%fine%cover(:, here), pass%values(:, here), rows(:n))
+    if (k < pass%fine%first .or. k > pass%fine%last) return
+    associate (n => pass%fine%cells(1))
+      call add_open_row(n, weight, pass%fine%cover(:, k), pass%values(:, k), rows(:n))
     end associate
   end subroutine add_open
 
@@ -423,7 +526,7 @@ contains
     class(row_pass), intent(inout) :: pass
     integer, intent(in) :: j
 
-    associate (n => pass%fine%cells, m => pass%coarse%cells, k => (j + pass%before + 1)/2)
+    associate (n => pass%fine%cells, m => pass%coarse%cells, k => (j + 1)/2)
       call spread_row(m(1), n(1), pass%coarse%inverse(:, k), pass%coarse%values(:, k), pass%fine%cover(:, j), &
                       pass%values(:, j))
     end associate

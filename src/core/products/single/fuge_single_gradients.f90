@@ -35,6 +35,12 @@ module fuge_single_gradients
   !> The least eigenvalue of a preconditioned system of which no step has told one.
   real(dp), parameter :: TYPICAL_EIGENVALUE = 0.3_dp
 
+  !> Replacements of one run: how many since the residual has halved, and the least one that a replacement gave.
+  type :: replacement_count
+    integer :: in_vain = 0
+    real(dp) :: least = huge(1.0_dp)
+  end type replacement_count
+
 contains
 
   !> Iterate towards forces for which the gaps of the contact set are equal, as run_projected_gradients does; the
@@ -51,40 +57,29 @@ contains
     logical, intent(out) :: lost
     type(fuge_info), intent(inout) :: info
     type(point_pass) :: pass
+    type(replacement_count) :: replacements
     real(dp), allocatable :: factors(:)
-    real(dp) :: energy, largest, least_residual, previous, ratio, step_length
-    integer :: attempts, iteration, steps
-    logical :: goes_on
+    real(dp) :: energy, largest, previous, ratio, step_length
+    integer :: iteration, steps
+    logical :: goes_on, judges
 
     lost = .false.
     goes_on = .false.
-    least_residual = huge(least_residual)
-    attempts = 0
     iterate%converged = .false.
     call iterate%lanczos%restart()
     previous = 1.0_dp
     steps = 0
     do iteration = 0, LIMIT
-      if (iterate%residual_norm < REPLACED*state%drift .and. &
-          state%drift > NEGLIGIBLE*residual_needed(iterate, tolerance, to_tolerance)) then
+      if (has_lost_digits(state, iterate, residual_needed(iterate, tolerance, to_tolerance))) then
         ! Residuals of the size of their errors were others than those that replace them.
         goes_on = goes_on .and. iterate%residual_norm > RELATED*state%drift
-        call restore_sum(scene, state, iterate)
-        call refresh(operator, scene, .false., state, iterate, info)
-        if (info%failed()) return
-        ! Residuals that are rounding in double precision get no smaller.
-        attempts = attempts + 1
-        if (iterate%residual_norm < HALVED*least_residual) attempts = 0
-        lost = attempts > MOST_ATTEMPTS
-        if (lost) return
-        least_residual = min(least_residual, iterate%residual_norm)
+        call replace_residuals(operator, scene, replacements, state, iterate, lost, info)
+        if (lost .or. info%failed()) return
         cycle
       end if
       iterate%converged = is_accurate(iterate, tolerance)
-      if (iterate%converged) return
-      if (steps > 0 .and. .not. to_tolerance) then
-        if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
-      end if
+      judges = steps > 0 .and. .not. to_tolerance
+      if (iterate%converged .or. (judges .and. iterate%residual_norm <= DECISIVE*iterate%penetration)) return
       call preconditioner%apply(operator, scene, state, iterate, factors, energy, info)
       lost = .not. energy > 0.0_dp
       if (lost .or. info%failed()) return
@@ -93,14 +88,12 @@ contains
       call state%point_to(scene, iterate, pass)
       pass%factors = factors
       pass%ratio = ratio
-      call pass%go(turn_direction, 1)
+      call pass%go(turn_direction, 1, 0)
       largest = pass%largest(1)
       if (steps == 0 .or. is_accurate(iterate, NEARLY*tolerance)) then
         iterate%amplification = largest/iterate%residual_norm
       end if
-      if (steps > 0 .and. .not. to_tolerance) then
-        if (largest <= DECISIVE*state%tension) return
-      end if
+      if (judges .and. largest <= DECISIVE*state%tension) return
       call multiply_single(operator, state%direction, state%work, info)
       if (info%failed()) return
       call step(scene, energy, state, iterate, step_length)
@@ -113,6 +106,37 @@ contains
     end do
     lost = .true.
   end subroutine run_single_gradients
+
+  !> Are residuals so small that the errors of the products count, and larger than what is `needed` allows?
+  elemental function has_lost_digits(state, iterate, needed) result(lost)
+    type(single_state), intent(in) :: state
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(in) :: needed
+    logical :: lost
+
+    lost = iterate%residual_norm < REPLACED*state%drift .and. state%drift > NEGLIGIBLE*needed
+  end function has_lost_digits
+
+  !> Replace the residuals by those of a product in double precision. `lost`: they get no smaller, because they are
+  !> rounding in double precision. Errors: those of the operator, FUGE_ERR_MEMORY.
+  subroutine replace_residuals(operator, scene, replacements, state, iterate, lost, info)
+    class(fuge_operator), intent(in) :: operator
+    type(contact_scene), intent(in), target :: scene
+    type(replacement_count), intent(inout) :: replacements
+    type(single_state), intent(inout), target :: state
+    type(contact_iterate), intent(inout), target :: iterate
+    logical, intent(out) :: lost
+    type(fuge_info), intent(inout) :: info
+
+    lost = .false.
+    call restore_sum(scene, state, iterate)
+    call refresh(operator, scene, .false., state, iterate, info)
+    if (info%failed()) return
+    replacements%in_vain = replacements%in_vain + 1
+    if (iterate%residual_norm < HALVED*replacements%least) replacements%in_vain = 0
+    lost = replacements%in_vain > MOST_ATTEMPTS
+    replacements%least = min(replacements%least, iterate%residual_norm)
+  end subroutine replace_residuals
 
   !> The residual at which the iteration stops, as far as its distances tell: that of the tolerance, or one that lets
   !> the set be judged.
@@ -144,7 +168,7 @@ contains
     if (info%failed()) return
     call state%point_to(scene, iterate, pass)
     pass%factors = factors
-    call pass%go(turn_direction, 1)
+    call pass%go(turn_direction, 1, 0)
     if (pass%largest(1) > 0.0_dp) iterate%least_compliance = TYPICAL_EIGENVALUE*iterate%residual_norm/pass%largest(1)
   end subroutine estimate_compliance
 
@@ -164,21 +188,21 @@ contains
     step_length = 0.0_dp
     m = state%motions
     call state%point_to(scene, iterate, pass)
-    call pass%go(sum_curvature, 2 + state%columns)
-    curvature = pass%total(1)
+    call pass%go(sum_curvature, 1, 1 + state%columns)
+    curvature = pass%total(2)
     rise = given_way(scene, .false., state, iterate)
     if (state%flexibility > 0.0_dp) curvature = curvature + rise*(rise/state%flexibility)
     if (.not. (curvature > 0.0_dp .and. curvature <= huge(curvature))) return
     if (iterate%lanczos%is_suspect(curvature/energy)) return
     step_length = energy/curvature
     means = step_length*components(state, iterate, pass, 2)
-    state%drift = state%drift + SINGLE_ERROR*step_length*pass%largest(2) + epsilon(1.0_sp)*iterate%residual_norm
+    state%drift = state%drift + SINGLE_ERROR*step_length*pass%largest(1) + epsilon(1.0_sp)*iterate%residual_norm
     call move_by(scene, -means, iterate)
     pass%factor = step_length
     pass%factors(:m) = means - state%offset(:m)
     if (.not. allocated(state%basis)) pass%shift = sum(pass%factors(:m)) - step_length*rise
     state%is_exact = .false.
-    call pass%go(step_all, 3 + state%columns)
+    call pass%go(step_all, 3, state%columns)
     ! A motion left by rounding would grow.
     state%offset(:m) = components(state, iterate, pass, 3)
     call move_by(scene, state%offset(:m), iterate)

@@ -45,6 +45,7 @@ contains
     pass%noise = noise
     call pass%run(size(scene%gap), 3)
     found = [(pass%total(j), j=1, 3)]
+    call scene%rows%add(found)
   end subroutine exchange_states
 
   !> Stops and ranges for the states of all points; distances count from the new stop.

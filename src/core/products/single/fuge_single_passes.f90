@@ -9,6 +9,7 @@ module fuge_single_passes
   use fuge_contact_segments, only: contact_segments
   use fuge_kinds, only: dp, sp
   use fuge_point_chunks, only: chunked_pass
+  use fuge_point_space, only: point_space
   use fuge_single_kernels, only: add_and_sum, add_components, find_excess, find_force_excess, inner_and_sum, &
     move_distances, project_and_turn, step_forces, subtract_column
   implicit none
@@ -35,6 +36,8 @@ module fuge_single_passes
     real(sp), pointer, contiguous :: distance(:) => null(), residual(:) => null(), direction(:) => null(), &
       work(:) => null()
     type(contact_segments), pointer :: segments => null()
+    !> The ranks that share the points.
+    type(point_space) :: space = point_space()
     !> Forces that displace all points of the contact as the columns of the basis do, almost; (n, columns).
     real(sp), pointer, contiguous :: images(:, :) => null(), basis(:, :) => null()
     integer :: columns = 1
@@ -75,14 +78,25 @@ module fuge_single_passes
 
 contains
 
-  !> Do `operation` on all chunks; it finds `results` numbers in each.
-  subroutine go(self, operation, results)
+  !> Do `operation` on all chunks; it finds numbers of which the largest count, `maxima` of them, then others that are
+  !> added up, `sums`. Where ranks share the points, the results are those of all ranks.
+  subroutine go(self, operation, maxima, sums)
     class(point_pass), intent(inout) :: self
     procedure(chunk_operation) :: operation
-    integer, intent(in) :: results
+    integer, intent(in) :: maxima, sums
+    real(dp) :: results(maxima + sums)
+    integer :: i
 
     self%operation => operation
-    call self%run(size(self%gap), results)
+    call self%run(size(self%gap), maxima + sums)
+    if (self%space%is_alone()) return
+    results = [(self%largest(i), i=1, maxima), (self%total(i), i=maxima + 1, maxima + sums)]
+    if (maxima > 0) call self%space%raise(results(:maxima))
+    if (sums > 0) call self%space%add(results(maxima + 1:))
+    do i = 1, maxima + sums
+      self%found(i, :) = merge(results(i), 0.0_dp, i <= maxima)
+      self%found(i, 1) = results(i)
+    end do
   end subroutine go
 
   subroutine do_chunk(self, k, first, last)
@@ -142,14 +156,14 @@ contains
     end do
   end subroutine subtract_rigid
 
-  !> Contact where forces push and points take part. Found: the sum of these forces, and the largest magnitude of a gap.
+  !> Contact where forces push and points take part. Found: the largest magnitude of a gap, and the sum of these forces.
   subroutine sum_forces(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
 
     pass%contact(first:last) = pass%force(first:last) > 0.0_dp .and. pass%gap(first:last) < OUT_OF_REACH
-    pass%found(:, k) = [sum(pass%force(first:last), mask=pass%contact(first:last)), &
-                        maxval(abs(pass%gap(first:last)), mask=pass%gap(first:last) < OUT_OF_REACH)]
+    pass%found(:, k) = [maxval(abs(pass%gap(first:last)), mask=pass%gap(first:last) < OUT_OF_REACH), &
+                        sum(pass%force(first:last), mask=pass%contact(first:last))]
   end subroutine sum_forces
 
   !> Found: the sum of the forces in the contact.
@@ -570,8 +584,8 @@ contains
     end if
   end subroutine sum_direction
 
-  !> Found: the inner product of the direction and its displacements, `work`, over the contact, the largest magnitude of
-  !> these, and their components.
+  !> Found: the largest magnitude of the displacements by the direction, `work`, over the contact, the inner product of
+  !> both, and the components of these.
   subroutine sum_curvature(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
@@ -585,7 +599,7 @@ contains
         call inner_and_sum(b - a + 1, pass%direction(a:b), pass%work(a:b), found)
       end associate
     end do
-    pass%found(:3, k) = [found(1), found(3), found(2)]
+    pass%found(:3, k) = [found(3), found(1), found(2)]
     if (associated(pass%basis)) then
       pass%found(3, k) = 0.0_dp
       call find_components(pass, k, pass%work, 2)

@@ -91,14 +91,14 @@ contains
     ! With a spring the images of another set do not keep it symmetric.
     serves = self%changed > 0 .and. self%motions == state%motions .and. .not. state%flexibility > 0.0_dp
     serves = serves .and. real(self%changed, dp) <= CLOSE*points
-    if (serves .and. (points <= SMALL*real(size(scene%gap), dp) .or. state%motions > 1)) then
+    if (serves .and. (points <= SMALL*real(scene%points(), dp) .or. state%motions > 1)) then
       call find_products(self, scene, state, iterate, serves)
       if (serves) return
     end if
     call state%point_to(scene, iterate, pass)
     do j = 1, state%columns
       pass%column = j
-      call pass%go(mark_contact, 0)
+      call pass%go(mark_contact, 0, 0)
       call self%extension%extend(state%direction, info)
       call precondition_single(operator, state%direction, state%images(:, j), info)
       if (info%failed()) return
@@ -122,7 +122,7 @@ contains
 
     m = columns_of(state)
     call state%point_to(scene, iterate, pass)
-    call pass%go(sum_images, m**2)
+    call pass%go(sum_images, 0, m**2)
     if (allocated(self%products)) deallocate (self%products)
     allocate (self%products(m, m))
     do j = 1, m
@@ -185,18 +185,18 @@ contains
     m = columns_of(state)
     call state%point_to(scene, iterate, pass)
     if (self%changed > 0) then
-      call pass%go(sum_with_images, state%columns)
+      call pass%go(sum_with_images, 0, state%columns)
       resultants = [(pass%total(j), j=1, m)]
       call solve(transpose(self%products), resultants, possible)
       pass%factors(:m) = resultants
       pass%shift = resultants(1)
-      call pass%go(center_residuals, 0)
+      call pass%go(center_residuals, 0, 0)
     end if
     call self%extension%extend(state%residual, info)
     call precondition_single(operator, state%residual, state%work, info)
     if (info%failed()) return
     call self%extension%collect(state%work, info)
-    call pass%go(sum_energy, 1 + state%columns)
+    call pass%go(sum_energy, 0, 1 + state%columns)
     energy = pass%total(1)
     if (m == 0) return
     resultants = [(pass%total(1 + j), j=1, m)]

@@ -44,8 +44,7 @@ contains
     real(dp) :: datum, magnitude
     logical :: on_spring
 
-    suits = scene%rows%is_alone() .and. .not. scene%is_unloaded()
-    if (suits) suits = operator%has_single()
+    suits = operator%has_single() .and. .not. scene%is_unloaded()
     if (.not. suits) return
     on_spring = operator%translation_spring() > 0.0_dp
     ! Without a free translation equal forces have to displace the points.
@@ -78,17 +77,15 @@ contains
 
     found = .false.
     call state%start(scene, info)
+    if (info%failed()) return
     state%flexibility = operator%translation_spring()
     iterate%projection%needs_basis = settings%prepared
-    if (settings%prepared .and. .not. info%failed()) then
-      if (.not. are_in_range(scene, maxval(abs(scene%gap), mask=scene%gap < OUT_OF_REACH))) return
-      if (allocated(scene%play)) call set_ranges(scene, state, iterate)
-      call note_forces(settings, scene, .true., state, iterate)
-      call refresh(operator, scene, .true., state, iterate, info)
-    else if (.not. info%failed()) then
+    if (settings%prepared) then
+      call take_prepared(operator, settings, scene, state, iterate, possible, info)
+    else
       call start_forces(operator, settings, scene, state, iterate, possible, info)
-      if (.not. possible) return
     end if
+    if (.not. possible) return
     call stalls%start(MAX_STALLS)
     previous_residual = huge(previous_residual)
     to_tolerance = .false.
@@ -97,12 +94,8 @@ contains
       if (lost .or. info%failed()) return
       call exchange(settings, scene, state, iterate, wrong, points, total)
       found = wrong == 0 .and. iterate%converged
-      if (settings%coarse_grid) then
-        found = wrong <= WRONG_ON_COARSE*real(points, dp)
-        if (found) call show_displacements(scene, state, iterate)
-      else if (found) then
-        call make_exact(settings, scene, state, iterate, found)
-      end if
+      if (settings%coarse_grid) found = wrong <= WRONG_ON_COARSE*real(points, dp)
+      if (found) call finish(settings, scene, state, iterate, found)
       if (found) return
       if (wrong == 0) then
         if (to_tolerance .or. iterate%converged) then
@@ -128,6 +121,24 @@ contains
     end do
   end subroutine find_in_single
 
+  !> The contact, forces and displacements of an iterate that is prepared. `possible`: as for start_forces. Errors: those
+  !> of the operator, FUGE_ERR_MEMORY.
+  subroutine take_prepared(operator, settings, scene, state, iterate, possible, info)
+    class(fuge_operator), intent(in) :: operator
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in) :: scene
+    type(single_state), intent(inout) :: state
+    type(contact_iterate), intent(inout) :: iterate
+    logical, intent(out) :: possible
+    type(fuge_info), intent(inout) :: info
+
+    possible = are_in_range(scene, scene%rows%largest(maxval(abs(scene%gap), mask=scene%gap < OUT_OF_REACH)))
+    if (.not. possible) return
+    if (allocated(scene%play)) call set_ranges(scene, state, iterate)
+    call note_forces(settings, scene, .true., state, iterate)
+    call refresh(operator, scene, .true., state, iterate, info)
+  end subroutine take_prepared
+
   !> The contact that the forces to start from suggest, and forces with the load there. `possible`: are the gaps in the
   !> range of single precision, and are there points to carry the load? Errors: those of the operator, FUGE_ERR_MEMORY.
   subroutine start_forces(operator, settings, scene, state, iterate, possible, info)
@@ -141,18 +152,18 @@ contains
     type(point_pass) :: pass
 
     call state%point_to(scene, iterate, pass)
-    call pass%go(sum_forces, 2)
-    possible = are_in_range(scene, pass%largest(2))
+    call pass%go(sum_forces, 1, 1)
+    possible = are_in_range(scene, pass%largest(1))
     if (possible .and. is_general(scene)) then
       call choose_contact(scene, iterate)
       if (allocated(scene%modes)) iterate%rigid_motion = 0.0_dp
-      possible = scene%prescribed .or. any(iterate%contact)
+      possible = scene%rows%anywhere(scene%prescribed .or. any(iterate%contact))
     else if (allocated(scene%excluded)) then
-      possible = possible .and. (scene%prescribed .or. pass%total(1) > 0.0_dp)
+      possible = possible .and. (scene%prescribed .or. pass%total(2) > 0.0_dp)
     end if
     if (.not. possible) return
     if (allocated(scene%play)) call set_ranges(scene, state, iterate)
-    call set_load(settings, scene, pass%total(1), state, iterate, info)
+    call set_load(settings, scene, pass%total(2), state, iterate, info)
     if (.not. info%failed()) call start_displacements(operator, scene, state, iterate, info)
   end subroutine start_forces
 
@@ -165,7 +176,7 @@ contains
   end function is_general
 
   !> Are gaps of which this is the `largest` magnitude, and plays, in the range of single precision?
-  pure function are_in_range(scene, largest)
+  function are_in_range(scene, largest)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: largest
     logical :: are_in_range
@@ -174,8 +185,23 @@ contains
     if (scene%prescribed .and. .not. allocated(scene%modes)) are_in_range = are_in_range .and. &
       largest >= SMALLEST_APPROACH
     if (.not. allocated(scene%play)) return
-    are_in_range = are_in_range .and. .not. any(scene%play > LARGEST_GAP .and. scene%play < huge(largest))
+    if (scene%rows%anywhere(any(scene%play > LARGEST_GAP .and. scene%play < huge(largest)))) are_in_range = .false.
   end function are_in_range
+
+  !> Leave the displacements of the set that is `found`, unless it has to be confirmed.
+  subroutine finish(settings, scene, state, iterate, found)
+    type(search_settings), intent(in) :: settings
+    type(contact_scene), intent(in) :: scene
+    type(single_state), intent(inout) :: state
+    type(contact_iterate), intent(inout) :: iterate
+    logical, intent(inout) :: found
+
+    if (settings%coarse_grid) then
+      call show_displacements(scene, state, iterate)
+    else
+      call make_exact(settings, scene, state, iterate, found)
+    end if
+  end subroutine finish
 
   !> Where forces on a coarser grid are extended beyond their limits, that takes the distances.
   subroutine show_displacements(scene, state, iterate)
@@ -186,7 +212,7 @@ contains
 
     if (.not. scene%has_limits()) return
     call state%point_to(scene, iterate, pass)
-    call pass%go(give_displacements, 1)
+    call pass%go(give_displacements, 1, 0)
   end subroutine show_displacements
 
   !> Are the displacements those of a product in double precision, or is the tolerance such that the errors of single
@@ -208,7 +234,7 @@ contains
     call state%point_to(scene, iterate, pass)
     pass%factors = state%offset
     if (.not. allocated(state%basis)) pass%shift = state%offset(1)
-    call pass%go(give_displacements, 1)
+    call pass%go(give_displacements, 1, 0)
     ! The lengths that decided may have been those of much larger forces.
     exact = pass%largest(1) >= CURRENT*state%largest
   end subroutine make_exact
@@ -243,8 +269,8 @@ contains
     else if (total > 0.0_dp) then
       pass%factor = 1.0_dp/total
     end if
-    pass%shift = 1.0_dp/real(size(scene%gap), dp)
-    call pass%go(set_forces, 0)
+    pass%shift = 1.0_dp/real(scene%points(), dp)
+    call pass%go(set_forces, 0, 0)
   end subroutine set_load
 
   !> How many points are in contact, and at limits: where feasible forces need others, they add points to the contact.
@@ -272,7 +298,7 @@ contains
     call state%point_to(scene, iterate, pass)
     pass%before => iterate%direction
     if (start) pass%before => iterate%force
-    call pass%go(take_change, 2)
+    call pass%go(take_change, 1, 1)
     if (.not. allocated(scene%modes)) return
     state%total = pass%total(2)
     iterate%tension_noise = SAFETY**2*settings%tolerance*pass%largest(1)
@@ -330,7 +356,7 @@ contains
       pass%noise = noise
       pass%tension = iterate%tension_noise
       if (.not. allocated(state%basis)) pass%shift = state%offset(1)
-      call pass%go(exchange_points, 3)
+      call pass%go(exchange_points, 0, 3)
       found = [pass%total(1), pass%total(2), pass%total(3)]
     end if
     wrong = nint(found(1))

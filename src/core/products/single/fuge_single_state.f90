@@ -79,7 +79,8 @@ contains
     if (stat == 0 .and. allocated(scene%modes)) allocate (self%basis(n, self%columns), stat=stat)
     if (stat == 0 .and. allocated(scene%play)) allocate (self%stop(n), self%least(n), self%most(n), stat=stat)
     call require_memory(stat, 'the work space of', n, 'points', info)
-    if (stat /= 0) return
+    call scene%rows%agree(info)
+    if (info%failed()) return
     if (allocated(self%basis)) self%basis = 0.0_sp
     if (.not. allocated(self%stop)) return
     self%stop = 0.0_dp
@@ -108,7 +109,7 @@ contains
       pass%modes => scene%modes
       pass%coefficients = iterate%projection%coefficients
     end if
-    call pass%go(note_basis, 1)
+    call pass%go(note_basis, 1, 0)
     self%peak = pass%largest(1)
     if (self%motions == 0) self%basis = 0.0_sp
   end subroutine take_basis
@@ -122,7 +123,7 @@ contains
 
     if (.not. self%flexibility > 0.0_dp) return
     call self%point_to(scene, iterate, pass)
-    call pass%go(sum_contact_forces, 1)
+    call pass%go(sum_contact_forces, 0, 1)
     self%total = pass%total(1)
   end subroutine note_total
 
@@ -138,6 +139,7 @@ contains
     pass%displacement => iterate%displacement
     pass%contact => iterate%contact
     pass%segments => iterate%segments
+    pass%space = scene%rows%point_space
     pass%distance => self%distance
     pass%residual => self%residual
     pass%direction => self%direction
@@ -180,7 +182,7 @@ contains
     if (.not. info%failed()) call find_segments(scene, iterate, info)
     if (info%failed()) return
     call state%point_to(scene, iterate, pass)
-    call pass%go(sum_gaps, 1 + state%columns)
+    call pass%go(sum_gaps, 1, state%columns)
     state%is_lost = .not. abs(pass%total(2)) <= huge(1.0_dp)
     if (state%is_lost) return
     state%largest = pass%largest(1)
@@ -188,7 +190,7 @@ contains
     call move_by(scene, components(state, iterate, pass, 1), iterate)
     pass%motion = iterate%motion
     if (allocated(scene%modes)) call point_to_modes(scene, iterate%rigid_motion, pass)
-    call pass%go(start_distances, 0)
+    call pass%go(start_distances, 0, 0)
     allocate (none(state%motions), source=0.0_dp)
     call settle(operator, scene, none, given_way(scene, .true., state, iterate), state, iterate)
   end subroutine start_displacements
@@ -208,7 +210,7 @@ contains
     if (.not. info%failed()) call find_segments(scene, iterate, info)
     if (info%failed()) return
     call state%point_to(scene, iterate, pass)
-    call pass%go(add_moves, 1 + state%columns)
+    call pass%go(add_moves, 1, state%columns)
     state%is_lost = .not. abs(pass%total(2)) <= huge(1.0_dp)
     if (state%is_lost) return
     state%drift = state%drift + SINGLE_ERROR*pass%largest(1)
@@ -229,7 +231,7 @@ contains
     if (.not. state%flexibility > 0.0_dp) return
     call state%point_to(scene, iterate, pass)
     pass%all_points = all_points
-    call pass%go(sum_direction, 1)
+    call pass%go(sum_direction, 0, 1)
     displacement = state%flexibility*pass%total(1)
   end function given_way
 
@@ -287,15 +289,15 @@ contains
     end if
     if (scene%prescribed) return
     call state%point_to(scene, iterate, pass)
-    call pass%go(sum_contact_forces, 1)
+    call pass%go(sum_contact_forces, 0, 1)
     load = 1.0_dp
-    if (scene%has_limits()) load = load - sum(iterate%force, mask=.not. iterate%contact)
+    if (scene%has_limits()) load = load - scene%rows%total(sum(iterate%force, mask=.not. iterate%contact))
     if (.not. abs(pass%total(1) - load) < 0.01_dp*load) return
     pass%factor = load/pass%total(1)
     if (scene%has_limits()) then
       where (iterate%contact) iterate%force = pass%factor*iterate%force
     else
-      call pass%go(scale_forces, 0)
+      call pass%go(scale_forces, 0, 0)
     end if
   end subroutine restore_sum
 
@@ -321,7 +323,7 @@ contains
       state%drift = 0.0_dp
       state%offset = 0.0_dp
       call state%point_to(scene, iterate, pass)
-      call pass%go(take_displacements, 1 + state%columns)
+      call pass%go(take_displacements, 1, state%columns)
       if (.not. allocated(scene%modes)) state%largest = pass%largest(1)
       means = components(state, iterate, pass, 1)
       call settle(operator, scene, means, 0.0_dp, state, iterate)
@@ -343,10 +345,10 @@ contains
     call state%point_to(scene, iterate, pass)
     if (multiplied) then
       call point_to_modes(scene, -iterate%rigid_motion, pass)
-      call pass%go(move_rigidly, 1)
+      call pass%go(move_rigidly, 1, 0)
     end if
     call point_to_modes(scene, iterate%rigid_motion, pass)
-    call pass%go(move_rigidly, 1)
+    call pass%go(move_rigidly, 1, 0)
     state%largest = pass%largest(1)
   end subroutine take_out_motion
 
@@ -363,7 +365,7 @@ contains
     all_factors(:size(factors)) = factors
     call state%point_to(scene, iterate, pass)
     call point_to_modes(scene, iterate%projection%motion(all_factors), pass)
-    call pass%go(move_rigidly, 1)
+    call pass%go(move_rigidly, 1, 0)
   end subroutine move_displacements
 
   !> Residuals, penetration and least magnitude, where distances in the contact have the rigid motion `means`, and all
@@ -384,7 +386,7 @@ contains
     pass%factors(:size(means)) = means
     if (allocated(scene%modes)) call point_to_modes(scene, iterate%rigid_motion, pass)
     pass%needs_terms = state%is_exact .or. .not. iterate%rounding > 0.0_dp
-    call pass%go(settle_distances, 4)
+    call pass%go(settle_distances, 4, 0)
     iterate%residual_norm = pass%largest(1)
     ! Of so few points the rigid motion takes up all distances.
     if (iterate%segments%points <= state%motions) iterate%residual_norm = 0.0_dp
