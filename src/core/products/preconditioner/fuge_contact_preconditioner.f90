@@ -33,8 +33,6 @@ module fuge_contact_preconditioner
   real(dp), parameter :: CLOSE = 0.05_dp
   !> A negative energy below this fraction of the magnitude of its terms is rounding.
   real(dp), parameter :: ROUNDING = 1.0e-10_dp
-  !> More ranks do not extend sets, for which each has a part of the whole grid.
-  integer, parameter :: MOST_RANKS = 8
   !> More levels than any grid has.
   integer, parameter :: MAX_LEVELS = 8
 
@@ -115,8 +113,7 @@ contains
     end if
     segments%space = space
     call segments%find(contact, info)
-    self%is_extended = space%members() <= MOST_RANKS
-    if (self%is_extended) self%is_extended = operator%extends_sets()
+    self%is_extended = operator%extends_sets()
     if (self%is_extended .and. .not. info%failed()) call self%extended%set(operator, contact, info)
     if (self%depth == 1 .and. self%has_uniform .and. zero_sum .and. .not. info%failed()) then
       call keep_uniform(self, segments, contact)
