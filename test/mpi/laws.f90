@@ -263,7 +263,8 @@ contains
     character(len=*), intent(in) :: name
     type(fuge_info), intent(in) :: info
 
-    if (my_rank() == 0) write (*, '(a,t36,4i6)') name, info%iterations, info%products, info%preconditionings, info%contacts
+    if (my_rank() == 0) write (*, '(a,t36,4i6)') name, info%iterations, info%products, info%preconditionings, &
+      info%contacts
   end subroutine told
 
   ! All ranks have this status, and the same message that begins like this.

@@ -113,8 +113,8 @@ contains
       whole_problem%resultant = [load]
     end if
     ! Ranks add up in single precision what extends a contact set of an area.
-    call check_solves(name, merge(1.0e-9_dp, 1.0e-12_dp, min(nx, ny) > 1), merge(3, 0, min(nx, ny) > 1), solves, shared, &
-                      whole, problem, whole_problem)
+    call check_solves(name, merge(1.0e-9_dp, 1.0e-12_dp, min(nx, ny) > 1), merge(3, 0, min(nx, ny) > 1), solves, &
+                      shared, whole, problem, whole_problem)
   end subroutine compare
 
 end program same_answer

@@ -115,8 +115,8 @@ static void follow(record *r, int number) {
   char message[256] = "";
   fuge_solver *s = NULL;
   make_gap(N, number, gap);
-  expect(r, fuge_load_path(shared.dense, gap, end, 2 * N, loads, approach, NULL, NULL, NULL, NULL, &path_entries, message,
-                           sizeof message), FUGE_DONE);
+  expect(r, fuge_load_path(shared.dense, gap, end, 2 * N, loads, approach, NULL, NULL, NULL, NULL, &path_entries,
+                           message, sizeof message), FUGE_DONE);
   put(r, loads, path_entries);
   put(r, approach, path_entries);
   expect(r, fuge_solver_new(shared.dense, NULL, &s, NULL, 0), FUGE_DONE);

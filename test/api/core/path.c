@@ -54,7 +54,8 @@ static void test_refusals(void) {
   CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
   CHECK_STATUS(fuge_load_path(NULL, TABLE1_GAP, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
                FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_load_path(op, NULL, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_load_path(op, NULL, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
+               FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0),
                FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 1.0, -1, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),

@@ -25,7 +25,8 @@ static void press(double *x, double *width, double *force) {
 
 static fuge_field *line(const double *x, const double *width, const double *force, int symmetric) {
   fuge_field *field = NULL;
-  CHECK_DONE(fuge_field_halfplane(N, x, width, force, FUGE_MEAN, symmetric, 1.0, 0.3, FUGE_PLANE_STRAIN, &field, NULL, 0));
+  CHECK_DONE(fuge_field_halfplane(N, x, width, force, FUGE_MEAN, symmetric, 1.0, 0.3, FUGE_PLANE_STRAIN, &field, NULL,
+                                  0));
   return field;
 }
 
