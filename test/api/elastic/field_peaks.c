@@ -7,7 +7,7 @@ static const double PI = 3.14159265358979323846;
 /* The largest stress of a field, which is freed. */
 static fuge_stress_peak largest(fuge_field *field, int measure) {
   fuge_stress_peak peak = {0};
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   CHECK_MESSAGE(fuge_field_largest(field, measure, &peak, message, sizeof message), FUGE_DONE, message, "");
   CHECK(peak.layer == -1 && peak.cell == -1);
   fuge_field_free(&field);
@@ -123,7 +123,7 @@ static void test_rings(void) {
 /* Without forces all is 0; what is refused. */
 static void test_nothing_and_refusals(void) {
   double x[N], width[N], force[N];
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_stress_peak peak;
   press(x, width, force);
   fuge_field *field = line(x, width, force, 1);

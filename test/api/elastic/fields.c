@@ -27,7 +27,7 @@ static values ask(fuge_field *field, int points, const double *place) {
 
 static fuge_field *line(int n, const double *x, const double *force, int element, int symmetric, int plane_state) {
   fuge_field *field = NULL;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   CHECK_MESSAGE(fuge_field_halfplane(n, x, ONES, force, element, symmetric, YOUNG, POISSON, plane_state, &field,
                                      message, sizeof message), FUGE_DONE, message, "");
   return field;

@@ -290,7 +290,7 @@ static void test_refusals(void) {
   const int broken[2] = {0, 20};
   const double displacement[2] = {0.0, 0.0};
   double u[DEGREES] = {SENTINEL};
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   fuge_body *body = NULL;
   fuge_info info;
 
