@@ -41,6 +41,7 @@ for name in ("recipe.yaml", "meta.yaml"):
     for needed in ("fftw", "liblapack", "libblas", "suitesparse", "compiler('fortran')", "compiler('c')"):
         expect(needed in text, f"{name}: {needed} is missing")
     expect("- fuge " not in text, f"{name}: the command `fuge` is part of the Python package")
+    expect("\n  path: ../..\n" in text, f"{name}: script/release does not find the path of the sources")
     expect("license: BSD-3-Clause AND GPL-2.0-or-later\n" in text, f"{name}: licences")
 
 said = []
@@ -74,6 +75,7 @@ scope = {"__name__": "package"}
 exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), scope)  # noqa: S102
 arguments = scope["Fuge"]().cmake_args()
 check_options({argument[2:].split("=")[0] for argument in arguments}, "package.py")
+expect(f'\n    version("{version}")\n' in path.read_text(encoding="utf-8"), "package.py: no line for script/release")
 versions = [values for kind, values, _ in said if kind == "version"]
 expect((version,) in versions, f"package.py: not version {version}")
 needs = [values[0] for kind, values, _ in said if kind == "depends_on"]
