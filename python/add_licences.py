@@ -16,11 +16,12 @@ from urllib.parse import unquote
 
 # Libraries under the GPL: a wheel with one of them is under it as a whole.
 GPL = re.compile(r"lib(fftw3|cholmod)")
-# Licences of the libraries in a wheel, in the words of SPDX, beside that of fuge, LAPACK and OpenBLAS.
+# Licences of the libraries in a wheel, in the words of SPDX, beside that of fuge, LAPACK, OpenBLAS and AMD.
 LICENCES = {
     "GPL-2.0-or-later": GPL,
     "LGPL-2.1-or-later": re.compile(r"lib(cholmod|quadmath)"),
     "GPL-3.0-or-later WITH GCC-exception-3.1": re.compile(r"lib(gfortran|gcc_s|gomp)"),
+    "Apache-2.0": re.compile(r"libmetis"),
 }
 HEAD = """\
 fuge is under the BSD licence with three clauses, the file LICENSE. The folder fuge.libs of this wheel has
