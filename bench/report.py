@@ -33,7 +33,7 @@ PROGRAMS = {"accuracy": "accuracy", "graded": "graded_cells", "costs": "costs", 
             "load_cases": "load_cases", "increments": "increments", "threads": "threads",
             "threads_model": "threads_model", "layered_waves": "layered_waves",
             "layered_surfaces": "layered_surfaces", "proofs": "proofs",
-            "gradients": "gradients", "wanted_error": "wanted_error"}
+            "gradients": "gradients", "wanted_error": "wanted_error", "proof_table": "proof_table"}
 # The rows of these that the manual has; all of the others.
 ROWS = {"graded": r"\| (?:contact|---|(?:cylinder|flat|lifted) \| (?:64|256) )"}
 # Words of the programs, and those of the manual; and columns that the manual does not have.
