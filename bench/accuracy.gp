@@ -24,7 +24,8 @@ set key at graph 1.0, 0.36
 plot x with lines ls KNOWN title 'wanted', \
      file using (of('line', beside($3))):(shown($5)) with points ls FUGE title 'lines', \
      file using (of('area', beside($3))):(shown($5)) with points ls FUGE_TOO title 'areas', \
-     file using (given_up(beside($3))):(shown($5)) with points lc rgb black lw 1 pt 2 ps 1.2 title 'not reached, with a warning'
+     file using (given_up(beside($3))):(shown($5)) with points lc rgb black lw 1 pt 2 ps 1.2 \
+       title 'not reached, with a warning'
 eval panel(0.585, 0.985, 0.13, 0.92)
 set title 'Time'
 set ylabel 'time [s]'
@@ -34,5 +35,6 @@ plot file using (of('line', beside($3))):6 with points ls FUGE title 'lines, to 
      file using (of('area', beside($3))):6 with points ls FUGE_TOO title 'areas, to the wanted error', \
      file using (of('line', beside($3))):7 with points ls OTHER title 'lines, best grid known in hindsight', \
      file using (of('area', beside($3))):7 with points ls OTHER_TOO title 'areas, best grid known in hindsight', \
-     file using (given_up(beside($3))):6 with points lc rgb black lw 1 pt 2 ps 1.2 title 'not reached, with a warning'
+     file using (given_up(beside($3))):6 with points lc rgb black lw 1 pt 2 ps 1.2 \
+       title 'not reached, with a warning'
 unset multiplot

@@ -230,7 +230,7 @@ def growth_table(data):
 
 
 def solved_spheres(data):
-    """Rows of fuge with the fastest other code on the same sphere, as (row, seconds, name), the smallest sphere first."""
+    """Rows of fuge with the fastest other code on the same sphere: (row, seconds, name), the smallest sphere first."""
     for own in sorted(data.where(problem="sphere", method="iterative_fft", tolerance=TOLERANCE["sphere"]),
                       key=lambda row: row["n"]):
         peers = [(total(row), name) for method, name in ALL_CODES.items()
@@ -262,12 +262,12 @@ def speed_sentence(data):
     if not spheres or not rough:
         return ""
     (small, small_time, small_name), (large, large_time, large_name) = spheres[0], spheres[-1]
-    return (f"**Speed**: a sphere on {side(small)} x {side(small)} cells, for an error of {short(small['error_pressure'])}, "
-            f"takes {seconds(total(small))}, and {seconds(small_time)} with the fastest other contact code measured, "
-            f"{small_name}; on {side(large)} x {side(large)} cells, for {short(large['error_pressure'])}, "
-            f"{seconds(total(large))} and {seconds(large_time)} with {large_name}. The fastest other code takes "
-            f"{span(list(peer_ratios(data, 'sphere')))} times as long for spheres, and {span(rough)} times for rough "
-            "surfaces.")
+    return (f"**Speed**: a sphere on {side(small)} x {side(small)} cells, for an error of "
+            f"{short(small['error_pressure'])}, takes {seconds(total(small))}, and {seconds(small_time)} with the "
+            f"fastest other contact code measured, {small_name}; on {side(large)} x {side(large)} cells, for "
+            f"{short(large['error_pressure'])}, {seconds(total(large))} and {seconds(large_time)} with {large_name}. "
+            f"The fastest other code takes {span(list(peer_ratios(data, 'sphere')))} times as long for "
+            f"spheres, and {span(rough)} times for rough surfaces.")
 
 
 def tables(data):

@@ -147,8 +147,8 @@ contains
       point = [(0.5_dp + (2*ibits(c, k - 1, 1) - 1)/sqrt(12.0_dp), k=1, d)]
       do a = 0, 2**d - 1
         do k = 1, d
-          slope(k, a + 1) = (2*ibits(a, k - 1, 1) - 1)*product([(merge(point(j), 1 - point(j), ibits(a, j - 1, 1) == 1), &
-                                                                 j=1, k - 1)]) &
+          slope(k, a + 1) = (2*ibits(a, k - 1, 1) - 1) &
+                            *product([(merge(point(j), 1 - point(j), ibits(a, j - 1, 1) == 1), j=1, k - 1)]) &
                             *product([(merge(point(j), 1 - point(j), ibits(a, j - 1, 1) == 1), j=k + 1, d)])
         end do
       end do

@@ -60,8 +60,8 @@ contains
     do begin = 1, count, MESSAGE
       part = min(MESSAGE, count - begin + 1)
       do step = 1, ranks - 1
-        call MPI_Irecv(received((step - 1)*count + begin), part, MPI_DOUBLE_PRECISION, modulo(me - step, ranks), 0, comm, &
-                       requests(n + 1))
+        call MPI_Irecv(received((step - 1)*count + begin), part, MPI_DOUBLE_PRECISION, modulo(me - step, ranks), 0, &
+                       comm, requests(n + 1))
         call MPI_Isend(sent((step - 1)*count + begin), part, MPI_DOUBLE_PRECISION, modulo(me + step, ranks), 0, comm, &
                        requests(n + 2))
         n = n + 2

@@ -1,9 +1,9 @@
 !> The load in increments, as finite element programs apply it: each begins with the contact set of the last one, and
 !> changes the states of points until forces and gaps agree with them.
 !>
-!> Of a set A f + a = v on its points and the sum of f = F are solved: with a matrix by a Cholesky factor of its block for
-!> each set, with products by conjugate gradients from the forces before. All points whose state is wrong change it at
-!> once; where that does not get better, the worst one alone.
+!> Of a set A f + a = v on its points and the sum of f = F are solved: with a matrix by a Cholesky factor of its block
+!> for each set, with products by conjugate gradients from the forces before. All points whose state is wrong change it
+!> at once; where that does not get better, the worst one alone.
 module bench_increments
   use bench_lapack, only: dpotrf, dpotrs, dsymv
   use fuge, only: dp => fuge_dp, fuge_operator

@@ -98,7 +98,8 @@ contains
     if (contact%is_rough()) call solve_finely(coarser, contact)
   end subroutine make_contact
 
-  !> A random rough line: periodic, or on a cylinder with its contact inside; waves up to 4 to 32 periods, light to heavy loads; solved finely.
+  !> A random rough line: periodic, or on a cylinder with its contact inside; waves up to 4 to 32 periods, light to
+  !> heavy loads; solved finely.
   subroutine make_random_line(seed, contact)
     integer, intent(in) :: seed
     type(wanted_contact), intent(out) :: contact
@@ -167,8 +168,8 @@ contains
     contact%amplitude = contact%amplitude/sqrt(0.5_dp*sum((contact%amplitude*norm2(contact%waves, 1))**2))
   end subroutine make_rough
 
-  !> Curvatures and load of an elliptic contact of given half axes, with the largest pressure E*/2: integrals of Johnson,
-  !> Contact Mechanics, 1985, section 3.3, whose integrands are periodic.
+  !> Curvatures and load of an elliptic contact of given half axes, with the largest pressure E*/2: integrals of
+  !> Johnson, Contact Mechanics, 1985, section 3.3, whose integrands are periodic.
   subroutine press_ellipse(contact)
     type(wanted_contact), intent(inout) :: contact
     integer, parameter :: N = 200

@@ -76,8 +76,8 @@ contains
       call condensed%clear()
     end do
     write (output_unit, '(a, 2(es9.2, a), f6.2, a, f4.1, a)') '| '//name//', '//whole(size(constrained)) &
-      //' degrees of freedom, '//whole(size(condensed%alpha, 2))//' points | ', bound%best, ' s | ', condensation%best, &
-      ' s | ', condensation%best/bound%best, ' | ', WANTED, ' |'
+      //' degrees of freedom, '//whole(size(condensed%alpha, 2))//' points | ', bound%best, ' s | ', &
+      condensation%best, ' s | ', condensation%best/bound%best, ' | ', WANTED, ' |'
     flush (output_unit)
   end subroutine measure
 

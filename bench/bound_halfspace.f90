@@ -1,8 +1,8 @@
 !> Time of one influence coefficient of the half-space, against the least that any method needs: one square root and
 !> one division, 1/sqrt(x**2 + y**2), for each.
 !>
-!> Prints rows | problem | bound | fuge | ratio | wanted | to standard output, times in nanoseconds. Both sides alternate
-!> and the least time of each counts, because other programs may run.
+!> Prints rows | problem | bound | fuge | ratio | wanted | to standard output, times in nanoseconds. Both sides
+!> alternate and the least time of each counts, because other programs may run.
 program bound_halfspace
   use fuge, only: dp => fuge_dp, fuge_halfspace_matrix, fuge_info, FUGE_CENTRE, FUGE_MEAN
   use fuge_halfspace_table, only: fill_halfspace_table

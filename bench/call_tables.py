@@ -67,15 +67,18 @@ def body_table(bodies):
     head = ["given", "call", "error of the forces", "once", "a solve", "displacements", "memory"]
     calls = "`fuge_sparse_stiffness`, `fuge_condense`; "
     rows = []
-    for k, (name, figures) in enumerate(zip(("sparse stiffness matrix, in two dimensions", "", "in three dimensions", ""),
-                                            bodies.items())):
+    names = ("sparse stiffness matrix, in two dimensions", "", "in three dimensions", "")
+    for k, (name, figures) in enumerate(zip(names, bodies.items())):
         body, (once, solve, displaced, errors, held) = figures
-        size = re.search(r", (.*)", body)[1].replace(" degrees of freedom", " degrees of freedom" if k == 0 else " degrees")
-        size = size.replace(" points", " contact points" if k == 0 else " points")
+        size = re.search(r", (.*)", body)[1]
+        if k == 0:
+            size = size.replace(" points", " contact points")
+        else:
+            size = size.replace(" degrees of freedom", " degrees")
         rows.append([name, (calls if k == 0 else "") + size, short(errors[0]), seconds(once[0]), seconds(solve[0]),
                      seconds(displaced[0]), memory(held[0])])
-    rows += [["two meshes that do not match", "`fuge_solve_bodies`", "of the mesh", "[where it goes](#where-the-time-goes)", "",
-              "", ""],
-             ["a band or a full matrix", "`fuge_band_stiffness`, `fuge_dense_stiffness`", "of the mesh", "", "", "", ""],
-             ["files of CalculiX, Abaqus or Nastran", "the program `fuge`", "of the mesh", "[files.md](files.md)", "", "", ""]]
+    others = (("two meshes that do not match", "`fuge_solve_bodies`", "[where it goes](#where-the-time-goes)"),
+              ("a band or a full matrix", "`fuge_band_stiffness`, `fuge_dense_stiffness`", ""),
+              ("files of CalculiX, Abaqus or Nastran", "the command `fuge`", "[files.md](files.md)"))
+    rows += [[name, call, "of the mesh", time, "", "", ""] for name, call, time in others]
     return table(head, rows, 2)

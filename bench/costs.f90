@@ -22,8 +22,8 @@ program costs
   real(dp), parameter :: NU = 0.3_dp, STEP = 1.01_dp, BUDGET = 0.5_dp
 
   !> The rows of the table. The first two are times.
-  integer, parameter :: OPERATOR_ROW = 1, SOLVE_ROW = 2, NEXT_ROW = 3, DERIVATIVE_ROW = 4, PATH_ROW = 5, EVENT_ROW = 6, &
-    EDGES_ROW = 7, POINTS_ROW = 8, GRID_ROW = 9, PEAK_ROW = 10, ROWS = 10
+  integer, parameter :: OPERATOR_ROW = 1, SOLVE_ROW = 2, NEXT_ROW = 3, DERIVATIVE_ROW = 4, PATH_ROW = 5, &
+    EVENT_ROW = 6, EDGES_ROW = 7, POINTS_ROW = 8, GRID_ROW = 9, PEAK_ROW = 10, ROWS = 10
   character(len=44), parameter :: WORDS(ROWS) = [character(len=44) :: 'matrix or operator', 'a solve', &
     'the next one, load + 1 %', 'a derivative', 'a load path from no load', 'an event of it', 'edges', &
     'stresses at 1000 points', 'stresses below all cells, 10 depths', 'the largest von Mises stress']
@@ -208,8 +208,8 @@ contains
 
     call field%set_grid(surface%n, surface%n, surface%cell(), surface%cell(), force, FUGE_FREE, 1.0_dp, NU, info)
     call check(info)
-    call measure_field(field, size(force), surface%contact_radius, spread(0.5_dp*(surface%n - 1)*surface%cell(), 1, 2), &
-                       time)
+    call measure_field(field, size(force), surface%contact_radius, &
+                       spread(0.5_dp*(surface%n - 1)*surface%cell(), 1, 2), time)
   end subroutine measure_area_stresses
 
   !> Stresses below a contact of half width `a` about `middle`, counted from the first cell of the grid.

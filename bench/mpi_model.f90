@@ -55,8 +55,8 @@ contains
     network%latency = argument(2, 2.0e-6_dp)
     network%number = 8.0_dp/argument(3, 1.0e9_dp)
     if (rank /= 0) return
-    write (*, '(/a,es9.2,a,es9.2,a)') 'Predicted for a network of ', network%latency, ' s and ', 8.0_dp/network%number, &
-      ' bytes/s at each rank, an iteration in ms:'
+    write (*, '(/a,es9.2,a,es9.2,a)') 'Predicted for a network of ', network%latency, ' s and ', &
+      8.0_dp/network%number, ' bytes/s at each rank, an iteration in ms:'
     call predict(network, 16384)
     call predict(network, 65536)
   end subroutine run
@@ -202,7 +202,8 @@ contains
     real(dp) :: alone, expected(2), messages, part(2), seconds, times(2)
     integer :: n
 
-    if (rank == 0) write (*, '(a)') 'Shared by the ranks: n, product, modelled, its messages alone, %; preconditioning, ' &
+    if (rank == 0) write (*, '(a)') &
+      'Shared by the ranks: n, product, modelled, its messages alone, %; preconditioning, ' &
       //'modelled; product of n x n/P cells on each rank alone, ms'
     n = 2*LEAST
     do while (n <= largest)
@@ -229,7 +230,8 @@ contains
     real(dp) :: alone, parts(4), share
     integer :: p
 
-    write (*, '(/a,i6,a)') 'n ', n, ':  ranks  with rows      work  bandwidth    latency       sums      total   speed-up'
+    write (*, '(/a,i6,a)') 'n ', n, &
+      ':  ranks  with rows      work  bandwidth    latency       sums      total   speed-up'
     alone = sum(iteration(network, n, 1.0_dp, .true.))
     p = 16
     do while (p <= 4096)

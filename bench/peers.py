@@ -126,7 +126,7 @@ def by_clarabel(H, g, C, d, tolerance):
 
 def by_osqp(H, g, C, d, tolerance):
     """Operator splitting (ADMM) in C, for sparse matrices, with its polishing."""
-    n, m = len(g), len(d)
+    n = len(g)
     rows = scipy.sparse.vstack([scipy.sparse.csc_matrix(C), scipy.sparse.identity(n, format="csc")], format="csc")
     solver = osqp.OSQP()
     solver.setup(H, g, rows, np.append(d, np.zeros(n)), np.append(d, np.full(n, np.inf)), verbose=False,

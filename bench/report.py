@@ -34,7 +34,7 @@ PROGRAMS = {"accuracy": "accuracy", "graded": "graded_cells", "costs": "costs", 
             "load_cases": "load_cases", "increments": "increments", "threads": "threads",
             "threads_model": "threads_model", "layered_waves": "layered_waves",
             "layered_surfaces": "layered_surfaces", "proofs": "proofs",
-            "gradients": "gradients", "wanted_error": "wanted_error"}
+            "gradients": "gradients", "wanted_error": "wanted_error", "proof_table": "proof_table"}
 # The rows of these that the manual has; all of the others.
 ROWS = {"graded": r"\| (?:contact|---|(?:cylinder|flat|lifted) \| (?:64|256) )"}
 # Words of the programs, and those of the manual; and columns that the manual does not have.
@@ -44,7 +44,8 @@ WORDS = {"graded": ((r"\| cylinder \|", "| cylinder, edges |"), (r"\| flat \|", 
                                 (r"(\d+)x(\d+)", r"\1 x \2")),
          "wanted_error": ((r"\| face \|", "| flat face |"), (r"\| jumps \|", "| flat face on a wider interval |"),
                           (r"\| wave \|", "| wave, periodic |"), (r"\| rough_light \|", "| rough, periodic, light |"),
-                          (r"\| rough_heavy \|", "| rough, periodic, heavy |"), (r"\| rough_barrel \|", "| rough cylinder |"),
+                          (r"\| rough_heavy \|", "| rough, periodic, heavy |"),
+                          (r"\| rough_barrel \|", "| rough cylinder |"),
                           (r"\| disc \|", "| flat disc |"), (r"\| rough_area \|", "| rough, periodic, area |")),
          "steps": ((r"\b(quartic|light|heavy)_(\d+)", r"\1 2^\2"),)}
 # Engines that solve with a given matrix.
@@ -105,12 +106,14 @@ def write_picture(path, data, equal):
     for problem in area_report.ROUGH:
         points += solver_points(data, problem, largest(data, problem, area_report.PICTURE))
     points += area_report.equal_points(equal) if equal else []
-    limit = {panel: max((p[4] for p in points if p[0] == panel and p[4]), default=1.0) for panel in {p[0] for p in points}}
+    panels = {p[0] for p in points}
+    limit = {panel: max((p[4] for p in points if p[0] == panel and p[4]), default=1.0) for panel in panels}
     with open(path, "w", newline="") as out:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(["panel", "curve", "n", "error", "time_s", "outcome"])
-        order = {name: k for k, name in enumerate(("active_set", "graded", "iterative_dense", "iterative_fft", "smooth", *PEERS))}
-        for panel, curve, n, error, time, failure in sorted(points, key=lambda p: (p[0], order[p[1]], p[2], -(p[3] or 0.0))):
+        curves = ("active_set", "graded", "iterative_dense", "iterative_fft", "smooth", *PEERS)
+        points.sort(key=lambda p: (p[0], curves.index(p[1]), p[2], -(p[3] or 0.0)))
+        for panel, curve, n, error, time, failure in points:
             if error is None:
                 continue
             found = re.match(r"more than (\d+) s", failure)
@@ -191,7 +194,8 @@ def dense_table(data):
     columns = [("quartic", n) for n in (64, 256, 1024)] + [("random", n) for n in (50, 200, 800, 2000)]
     columns = [key for key in columns if data.one(problem=key[0], n=key[1], method="active_set")]
     rows = []
-    for method, text in (("active_set", "**active set**"), ("active_set_warm", "active set, warm"), ("tableau", "tableau")):
+    methods = (("active_set", "**active set**"), ("active_set_warm", "active set, warm"), ("tableau", "tableau"))
+    for method, text in methods:
         rows.append([text, *[cell(data.one(problem=p, n=n, method=method)) for p, n in columns]])
     for method, tolerance in QUADRATIC.items():
         found = [data.one(problem=p, n=n, method=method, tolerance=tolerance) for p, n in columns]
@@ -220,9 +224,11 @@ def products_table(data):
                 continue
             peer = data.one(problem=problem, n=n, method="tamaas", tolerance=1e-8)
             rows.append([f"{problem} 2^{n.bit_length() - 1}", f"{row['unknowns']:.0f}",
-                         f"{row['products_or_pivots']:.0f} + {row['preconditionings'] or 0:.0f}", seconds(row["setup_s"]),
-                         seconds(row["time_s"]), f"{row['time_over_limit']:.0f}", short(row["residual"]), cell(peer)])
-    head = ["problem", "in contact", "products + preconditioner", "operator", "solve", "over one product", "residual", "Tamaas, 1e-8"]
+                         f"{row['products_or_pivots']:.0f} + {row['preconditionings'] or 0:.0f}",
+                         seconds(row["setup_s"]), seconds(row["time_s"]), f"{row['time_over_limit']:.0f}",
+                         short(row["residual"]), cell(peer)])
+    head = ["problem", "in contact", "products + preconditioner", "operator", "solve", "over one product", "residual",
+            "Tamaas, 1e-8"]
     return table(head, rows)
 
 
@@ -242,7 +248,8 @@ def growth_table(data):
         cells += [seconds(next((row["time_s"] for row in curve if row["n"] == n), None)) for n in (64, 256, 1024)]
         cells += [seconds(last["time_s"]), seconds(last["setup_s"]), memory(last["memory_bytes"])]
         rows.append(cells)
-    head = ["engine", "n", "time grows", "memory grows", "n = 64", "n = 256", "n = 1024", "largest n", "its set-up", "its memory"]
+    head = ["engine", "n", "time grows", "memory grows", "n = 64", "n = 256", "n = 1024", "largest n", "its set-up",
+            "its memory"]
     return table(head, rows)
 
 
@@ -311,8 +318,8 @@ def bound_table(directory):
 
 
 def condition_table(directory):
-    """Largest errors of each engine's forces, and how many are silent, for each condition number: of all kinds of problems
-    that `force_error_table` has solved."""
+    """Largest errors of each engine's forces, and how many are silent, for each condition number: of all kinds of
+    problems that `force_error_table` has solved."""
     found, columns = {}, []
     for engine, name in DENSE_ENGINES.items():
         rows = contents(directory, f"force_error_{engine}.md").splitlines()[2:]
@@ -333,7 +340,8 @@ def line_ratios(data, n):
     """Times of the fastest code for quadratic programs over those of the active set, on contacts with n points."""
     for problem in KNOWN:
         own = data.one(problem=problem, method="active_set", n=n)
-        times = [total(row) for method in QUADRATIC for row in data.where(problem=problem, method=method, n=n, failure="")]
+        times = [total(row) for method in QUADRATIC
+                 for row in data.where(problem=problem, method=method, n=n, failure="")]
         if own and times:
             yield min(times)/total(own)
 
@@ -348,8 +356,8 @@ def speed_text(data):
         return ""
     (few, small), (many, large) = ratios[0], ratios[-1]
     lines = (f" For line contacts by a matrix the fastest of {len(QUADRATIC)} quadratic programming codes takes "
-             f"{area_report.span(small)} times as long with {few} points, and {area_report.span(large)} times with {many} "
-             "(`script/bench --peers`).")
+             f"{area_report.span(small)} times as long with {few} points, and {area_report.span(large)} times with "
+             f"{many} (`script/bench --peers`).")
     return textwrap.fill(areas + lines, 120, break_on_hyphens=False) + "\n"
 
 
@@ -405,7 +413,8 @@ def fill(path, parts):
 
 def typed_tables(words):
     """Tables with times in them that no mark holds: the number of the line, and the head."""
-    blank = re.sub(r"<!-- (\w+) begin -->.*?<!-- \1 end -->", lambda found: "\n" * found[0].count("\n"), words, flags=re.S)
+    blank = re.sub(r"<!-- (\w+) begin -->.*?<!-- \1 end -->", lambda found: "\n" * found[0].count("\n"), words,
+                   flags=re.S)
     for found in re.finditer(r"^(\|[^\n]*)\n\|[ :|-]+\n((?:\|[^\n]*\n)+)", blank, re.M):
         if re.search(r"\d (?:ms|us|µs|s|MB|GB) ", found[2]) or "µs" in found[1]:
             yield blank[:found.start()].count("\n") + 1, found[1]

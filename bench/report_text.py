@@ -118,7 +118,8 @@ def cell(row):
         return ""
     if row["time_s"] is None:
         return row["failure"]
-    return f"{seconds(row['time_s'])} {short(row['residual'])}" + (f" ({row['failure'][:20]})" if row["failure"] else "")
+    failure = f" ({row['failure'][:20]})" if row["failure"] else ""
+    return f"{seconds(row['time_s'])} {short(row['residual'])}{failure}"
 
 
 def fit(points):

@@ -248,7 +248,8 @@ contains
     do j = 1, size(all)
       associate (this => all(j), first => all(all(j)%reference))
         if (this%reference == j) then
-          write (cell, '(i0,a,i0,a,i0,a)') this%products, ' + ', this%preconditionings, ', ', nint(1.0e6_dp*this%seconds), ' us'
+          write (cell, '(i0,a,i0,a,i0,a)') this%products, ' + ', this%preconditionings, ', ', &
+            nint(1.0e6_dp*this%seconds), ' us'
         else
           write (ratio, '(f8.2)') this%seconds/first%seconds
           write (cell, '(i0,a,i0,a)') this%products, ' + ', this%preconditionings, ', '//trim(adjustl(ratio))

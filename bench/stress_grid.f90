@@ -65,7 +65,8 @@ contains
     type(fuge_info) :: info
 
     call field%set_grid(1.0_dp, force, element, boundary, YOUNG, NU, FUGE_PLANE_STRAIN, info)
-    if (.not. info%failed()) call cell%set_grid(1.0_dp, [1.0_dp], element, FUGE_FREE, YOUNG, NU, FUGE_PLANE_STRAIN, info)
+    if (.not. info%failed()) call cell%set_grid(1.0_dp, [1.0_dp], element, FUGE_FREE, YOUNG, NU, FUGE_PLANE_STRAIN, &
+                                                info)
     if (info%failed()) error stop 'no field'
     call time_field(name, field, cell, size(force), boundary == FUGE_FREE, force, depth)
   end subroutine time_halfplane

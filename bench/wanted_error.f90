@@ -4,17 +4,17 @@
 !>     wanted_error [FOLDER [COARSER]]
 !>     wanted_error held NUMBER
 !>
-!> The second form counts how often the estimate held, for so many random rough lines and wanted errors of 1e-2 and 1e-3,
-!> against a grid of 2^17 cells. The first one has the time:
+!> The second form counts how often the estimate held, for so many random rough lines and wanted errors of 1e-2 and
+!> 1e-3, against a grid of 2^17 cells. The first one has the time:
 !>
-!> Contacts with closed forms, and rough ones compared with a fine grid, `COARSER` times coarser to try it. Wanted errors
-!> of 1e-2, 1e-3 and 1e-4 on lines, 3e-2, 1e-2 and 3e-3 on areas; the errors are shares of the load in the wrong place.
-!> The calls of hindsight have the coarsest grid whose true error is below the wanted one: equal cells by FFT, in powers
-!> of two; on a free line with one contact graded cells between its exact ends, 1.25 times more of them at a time; a
-!> smooth punch without a grid, where the profile allows it. The time of a round punch is told, but not compared: that
-!> the body is round is not known to the others. All times are from the gap as a function to the forces of cells;
-!> one thread. Writes a Markdown table, and FOLDER/accuracy.csv: contact, lines or areas, wanted, estimated and true
-!> error, seconds, seconds in hindsight.
+!> Contacts with closed forms, and rough ones compared with a fine grid, `COARSER` times coarser to try it. Wanted
+!> errors of 1e-2, 1e-3 and 1e-4 on lines, 3e-2, 1e-2 and 3e-3 on areas; the errors are shares of the load in the wrong
+!> place. The calls of hindsight have the coarsest grid whose true error is below the wanted one: equal cells by FFT, in
+!> powers of two; on a free line with one contact graded cells between its exact ends, 1.25 times more of them at a
+!> time; a smooth punch without a grid, where the profile allows it. The time of a round punch is told, but not
+!> compared: that the body is round is not known to the others. All times are from the gap as a function to the forces
+!> of cells; one thread. Writes a Markdown table, and FOLDER/accuracy.csv: contact, lines or areas, wanted, estimated
+!> and true error, seconds, seconds in hindsight.
 program wanted_error
   use, intrinsic :: iso_fortran_env, only: output_unit
   use bench_problems, only: whole
@@ -27,7 +27,8 @@ program wanted_error
     FUGE_END_CORNER, FUGE_END_EDGE, FUGE_MEAN, FUGE_PERIODIC, FUGE_WARN_ACCURACY
   implicit none
 
-  real(dp), parameter :: WANTED(3) = [1.0e-2_dp, 1.0e-3_dp, 1.0e-4_dp], WANTED_AREA(3) = [3.0e-2_dp, 1.0e-2_dp, 3.0e-3_dp]
+  real(dp), parameter :: WANTED(3) = [1.0e-2_dp, 1.0e-3_dp, 1.0e-4_dp], &
+    WANTED_AREA(3) = [3.0e-2_dp, 1.0e-2_dp, 3.0e-3_dp]
   !> No search is longer.
   real(dp), parameter :: MOST_SECONDS = 20.0_dp
   !> Finest grids in hindsight, on a side of an area; more graded ones have no advantage.
@@ -63,7 +64,8 @@ contains
       open (newunit=unit, file=trim(folder)//'/accuracy.csv', action='write')
       write (unit, '(a)') 'contact,kind,wanted,estimate,true,seconds,hindsight'
     end if
-    write (output_unit, '(a)') '| contact | wanted error | estimate | true error | time | by | best given grid | its time |', &
+    write (output_unit, '(a)') &
+      '| contact | wanted error | estimate | true error | time | by | best given grid | its time |', &
       '| --- | ---: | ---: | ---: | ---: | --- | --- | ---: |'
     do k = 1, size(LINES)
       call measure(LINES(k), WANTED, coarser, unit)
@@ -124,8 +126,8 @@ contains
       call solve_to(contact, errors(k), found, seconds, info)
       true_error = contact%wrong_share(found%x, found%width_x, found%y, found%width_y, found%force)
       known = best_known(contact, errors(k))
-      write (output_unit, '(a,3(es7.1,a),7a)') '| '//contact%name//' | ', errors(k), ' | ', found%pressure_error, ' | ', &
-        true_error, ' | ', in_milliseconds(seconds), ' | ', way(found, info), ' | ', trim(known%name), ' | ', &
+      write (output_unit, '(a,3(es7.1,a),7a)') '| '//contact%name//' | ', errors(k), ' | ', found%pressure_error, &
+        ' | ', true_error, ' | ', in_milliseconds(seconds), ' | ', way(found, info), ' | ', trim(known%name), ' | ', &
         in_milliseconds(known%time)//' |'
       flush (output_unit)
       if (unit == -1) cycle
@@ -308,7 +310,8 @@ contains
       select case (contact%name)
       case ('wedge')
         call fuge_graded_cells(-a, 0.0_dp, [FUGE_END_EDGE, FUGE_END_CORNER], [2, 0], x(:half), width(:half), info)
-        call fuge_graded_cells(0.0_dp, a, [FUGE_END_CORNER, FUGE_END_EDGE], [0, 2], x(half + 1:), width(half + 1:), info)
+        call fuge_graded_cells(0.0_dp, a, [FUGE_END_CORNER, FUGE_END_EDGE], [0, 2], x(half + 1:), width(half + 1:), &
+                               info)
       case ('face', 'jumps')
         call fuge_graded_cells(-a, a, [FUGE_END_CORNER, FUGE_END_CORNER], [0, 0], x, width, info)
       case default
@@ -319,7 +322,8 @@ contains
     call contact%evaluate(x - PLACE*width, 0.0_dp*x, left, status)
     call contact%evaluate(x + PLACE*width, 0.0_dp*x, right, status)
     call fuge_halfplane_matrix(x, width, E_STAR, FUGE_MEAN, alpha, info)
-    if (.not. info%failed()) call fuge_solve_dense(alpha, 0.5_dp*(left + right), contact%load, force, open, approach, info)
+    if (.not. info%failed()) call fuge_solve_dense(alpha, 0.5_dp*(left + right), contact%load, force, open, approach, &
+                                                   info)
     if (info%failed()) error stop 'graded cells were not solved'
   end subroutine solve_graded_cells
 

@@ -2,8 +2,8 @@
 # examples, and doc/fortran.md, the Fortran interface from the docstrings. Links lead to installed files, those to files
 # that are not installed become text.
 #
-# cmake -DSOURCE_DIR=.. -DDOCUMENTS=.. -DTO_HEADERS=.. -DHEADERS=fuge.h;.. -DCOMPONENTS=core;.. -P documents.cmake, and by
-# cmake --install. TO_HEADERS: the path to the HEADERS from where README is installed. COMPONENTS: those that are.
+# cmake -DSOURCE_DIR=.. -DDOCUMENTS=.. -DTO_HEADERS=.. -DHEADERS=fuge.h;.. -DCOMPONENTS=core;.. -P documents.cmake, and
+# by cmake --install. TO_HEADERS: the path to the HEADERS from where README is installed. COMPONENTS: those that are.
 cmake_minimum_required(VERSION 3.20)
 include("${CMAKE_CURRENT_LIST_DIR}/reference.cmake")
 

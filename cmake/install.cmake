@@ -96,7 +96,8 @@ if(TARGET fuge_mpi)
     DESCRIPTION "Surfaces over MPI for fuge: compile with the wrapper of the MPI" REQUIRES fuge)
 endif()
 
-install(DIRECTORY "${fuge_headers_dir}/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY "${fuge_headers_dir}/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers}
+  FILES_MATCHING PATTERN "*.h")
 if(TARGET fuge_mpi)
   install(FILES src/mpi/include/fuge_mpi.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" ${for_developers})
 endif()

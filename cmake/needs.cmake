@@ -8,7 +8,8 @@
 
 # Operators by FFT, stresses on grids, transforms.
 set(fuge_of_fftw
-  "(halfplane|halfspace)_?operator|operator_(layered_)?(halfplane|halfspace)|(stress|displacement)_grid|_interfaces|fugefx[^a-z]"
+  "(halfplane|halfspace)_?operator|operator_(layered_)?(halfplane|halfspace)|fugefx[^a-z]"
+  "(stress|displacement)_grid|_interfaces"
   "%set_grid|fuge_field_[a-z_]*grid"
   "(fft|line|split)_plan|kept_rows|set_grid_store|fuge_solve_(line|area)[^a-z]"
   "use fuge_(convolution|grid_convolution|grid_plan|grid_waves|halfspace_waves)")

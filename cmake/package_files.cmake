@@ -1,6 +1,6 @@
 # The files of one Debian package, from an installation of the whole in STAGE: those whose paths match one of FILES and
-# none of EXCEPT. PACKAGE, VERSION, MAINTAINER and SOURCE_DIR too are set by cmake/packages.cmake, CMAKE_INSTALL_PREFIX by
-# CPack.
+# none of EXCEPT. PACKAGE, VERSION, MAINTAINER and SOURCE_DIR too are set by cmake/packages.cmake, CMAKE_INSTALL_PREFIX
+# by CPack.
 set(target "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}")
 
 function(matches_one result path)

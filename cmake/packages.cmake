@@ -32,7 +32,8 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${PROJECT_BINARY_DIR}/src" "${P
 set(stage "${PROJECT_BINARY_DIR}/packages/all")
 set(CPACK_INSTALL_COMMANDS
   "\"${CMAKE_COMMAND}\" -E rm -rf \"${stage}\""
-  "\"${CMAKE_COMMAND}\" -E env --unset=DESTDIR \"${CMAKE_COMMAND}\" --install \"${PROJECT_BINARY_DIR}\" --strip --prefix \"${stage}\"")
+  "\"${CMAKE_COMMAND}\" -E env --unset=DESTDIR \"${CMAKE_COMMAND}\" --install \"${PROJECT_BINARY_DIR}\" --strip \
+--prefix \"${stage}\"")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 file(WRITE "${PROJECT_BINARY_DIR}/packages/triggers" "activate-noawait ldconfig\n")
@@ -92,7 +93,8 @@ macro(fuge_package name)
   list(APPEND fuge_packaged ${package_FILES})
 endmacro()
 
-set(links "The libraries that the package depends on have licences of their own; FFTW and parts of CHOLMOD are under the GPL.")
+set(links "The libraries that the package depends on have licences of their own; FFTW and parts of CHOLMOD are under \
+the GPL.")
 set(exactly "(= ${PROJECT_VERSION})")
 fuge_package(libfuge${fuge_soversion} SECTION libs
   ABOUT "frictionless elastic contact, shared library" FILES "^lib[^ ]*/libfuge\\.so\\..*")
@@ -102,7 +104,8 @@ if(TARGET fuge_sparse)
   fuge_package(libfuge-sparse-dev SECTION libdevel
     DEPENDS "libfuge-dev ${exactly}, libfuge-sparse${fuge_soversion} ${exactly}${for_fortran}"
     ABOUT "frictionless elastic contact, development files for sparse matrices"
-    FILES "^lib.*/libfuge_sparse\\.so$" "^lib.*/fuge-sparse[^/]*$" "^lib.*/fuge_sparse-[^/]*$" "^lib.*/fuge_sparse\\.mod$")
+    FILES "^lib.*/libfuge_sparse\\.so$" "^lib.*/fuge-sparse[^/]*$" "^lib.*/fuge_sparse-[^/]*$"
+      "^lib.*/fuge_sparse\\.mod$")
 endif()
 if(TARGET fuge_mpi)
   fuge_package(libfuge-mpi${fuge_soversion} SECTION libs DEPENDS "libfuge${fuge_soversion} ${exactly}"

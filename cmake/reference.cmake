@@ -200,9 +200,9 @@ function(fuge_write_reference root file)
     list(APPEND names_${key} ${names})
   endforeach()
   list(REMOVE_DUPLICATES folders)
-  set(page "# Fortran interface\n\nWhat the module `fuge` has, by the folders of the source, from the docstrings there; the
-first part of a folder is its component, whose names the modules `fuge_core`, `fuge_halfspace` and so on have alone. `dp` is
-`fuge_dp`, and `self` the variable of the type.\n\n")
+  set(page "# Fortran interface\n\nWhat the module `fuge` has, by the folders of the source, from the docstrings there;
+the first part of a folder is its component, whose names the modules `fuge_core`, `fuge_halfspace` and so on have alone.
+`dp` is `fuge_dp`, and `self` the variable of the type.\n\n")
   foreach(folder IN LISTS folders)
     string(MAKE_C_IDENTIFIER "${folder}" key)
     list(JOIN names_${key} ", " names)

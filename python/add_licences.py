@@ -16,7 +16,13 @@ from urllib.parse import unquote
 
 # Libraries under the GPL: a wheel with one of them is under it as a whole.
 GPL = re.compile(r"lib(fftw3|cholmod)")
-BOTH = "GPL-2.0-or-later as a whole, because of FFTW or CHOLMOD in fuge.libs; fuge itself BSD-3-Clause"
+# Licences of the libraries in a wheel, in the words of SPDX, beside that of fuge, LAPACK, OpenBLAS and AMD.
+LICENCES = {
+    "GPL-2.0-or-later": GPL,
+    "LGPL-2.1-or-later": re.compile(r"lib(cholmod|quadmath)"),
+    "GPL-3.0-or-later WITH GCC-exception-3.1": re.compile(r"lib(gfortran|gcc_s|gomp)"),
+    "Apache-2.0": re.compile(r"libmetis"),
+}
 HEAD = """\
 fuge is under the BSD licence with three clauses, the file LICENSE. The folder fuge.libs of this wheel has
 copies of libraries of these packages of Debian, changed only in their names and in where they look for each other.
@@ -45,6 +51,11 @@ def copyright_of(package: str) -> str:
     return path.read_text(errors="replace")
 
 
+def expressions(libraries: list[str]) -> list[str]:
+    """The licences of these libraries, beside the BSD licence."""
+    return [name for name, pattern in LICENCES.items() if any(pattern.match(library) for library in libraries)]
+
+
 def add_licences(content: Path) -> None:
     """Add licences to an unpacked wheel."""
     (info,) = content.glob("*.dist-info")
@@ -63,13 +74,13 @@ def add_licences(content: Path) -> None:
     is_gpl = any(GPL.match(name) for name in libraries)
     lines = [f"{package} {version}\n" for package, version in sorted(found.items())]
     (licences / "LIBRARIES").write_text(HEAD.format(licence=WHOLE if is_gpl else "") + "".join(lines))
-    if is_gpl:
-        metadata = info / "METADATA"
-        text = metadata.read_text(encoding="utf-8")
-        changed = re.sub(r"^License: .*$", f"License: {BOTH}", text, count=1, flags=re.MULTILINE)
-        if changed == text:
-            sys.exit("fuge: the metadata of the wheel have no line License")
-        metadata.write_text(changed, encoding="utf-8")
+    metadata = info / "METADATA"
+    text = metadata.read_text(encoding="utf-8")
+    if not re.search(r"^License-Expression: BSD-3-Clause$", text, re.MULTILINE):
+        sys.exit("fuge: the metadata of the wheel have no line License-Expression: BSD-3-Clause")
+    expression = " AND ".join(["BSD-3-Clause", *expressions(libraries)])
+    text = re.sub(r"^(License-Expression:) .*$", rf"\1 {expression}", text, count=1, flags=re.MULTILINE)
+    metadata.write_text(text, encoding="utf-8")
 
 
 def main() -> None:

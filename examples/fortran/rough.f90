@@ -3,8 +3,8 @@
 !>     rough [cells [folder for its tables]]
 !>
 !> `cells` is a power of two, 2**18 unless given. The profile is self-affine and periodic. Lengths count in periods, and
-!> pressures in E*: mean pressure and contact do not depend on its value. While the contact is small its length is proportional
-!> to the load, A/A_0 = kappa p/(E* h') with the rms slope h'.
+!> pressures in E*: mean pressure and contact do not depend on its value. While the contact is small its length is
+!> proportional to the load, A/A_0 = kappa p/(E* h') with the rms slope h'.
 !> For the pictures it writes rough_load.csv and rough_window.csv.
 program rough
   use, intrinsic :: iso_fortran_env, only: int64

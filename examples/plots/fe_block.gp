@@ -19,7 +19,8 @@ set size ratio -1
 set xrange [-1.03*m_max_x:1.03*m_max_x]
 set yrange [1.06*m_min_y:0.3]
 set style fill solid noborder
-set object 1 rectangle from -m_max_x, 1.05*m_min_y to m_max_x, m_min_y fillcolor rgb solid fillstyle solid noborder behind
+set object 1 rectangle from -m_max_x, 1.05*m_min_y to m_max_x, m_min_y \
+  fillcolor rgb solid fillstyle solid noborder behind
 set label 2 "rigid punch" at 0, 0.13 center front
 set label 3 "nodes in contact" at 0, -0.75 center front textcolor rgb vermilion boxed
 set style textbox opaque noborder fillcolor rgb "#ffffff" margins 0.5, 0.3

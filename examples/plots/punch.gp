@@ -21,7 +21,8 @@ set yrange [0:31]
 set samples 2001
 eval gridlines
 set label 1 \
-  sprintf("E = 10^6 N/mm^2 as in the paper,\nfive times that of steel;\n%d cells of %.0f µm from x = 0,\nlight: mirrored", \
+  sprintf("E = 10^6 N/mm^2 as in the paper,\nfive times that of steel;\n" \
+  ."%d cells of %.0f µm from x = 0,\nlight: mirrored", \
   c_records, 1e3*spacing) at 0, 14.5 center
 set key at graph 0.5, 0.13 center center maxrows 1 width -1
 plot p(x) with lines ls KNOWN title "exact", \

@@ -85,6 +85,7 @@ plot "stress_ball.dat" matrix using (across($1, ball_size_x, 4)):(down($2, ball_
        with image, \
      "+" using 1:(gap($1)):(-0.2) with filledcurves fillcolor rgb solid, \
      "+" using (abs($1) <= 1 ? $1 : NaN):(0) with lines lw 3 lc rgb vermilion, \
-     "+" using (0):(down(ball_index_max_y, ball_size_y, 4)) every ::0::0 with points pt 2 ps 0.8 lw 2 lc rgb vermilion, \
+     "+" using (0):(down(ball_index_max_y, ball_size_y, 4)) every ::0::0 \
+       with points pt 2 ps 0.8 lw 2 lc rgb vermilion, \
      "+" using (0):(0):(0):(2) every ::0::0 with vectors nohead dt 3 lw 1 lc rgb vermilion
 unset multiplot

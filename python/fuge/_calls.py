@@ -96,6 +96,8 @@ class Handle:
 
     # Reentrant, because the garbage collector may free one handle while another one is being freed.
     _counting = threading.RLock()
+    # There is nothing to free until __init__ has ended, which fails where the library lacks a function.
+    _freed = True
 
     def __init__(self, name: str, free: str, pointer: ctypes.c_void_p) -> None:
         self.name = name
@@ -106,9 +108,9 @@ class Handle:
         self._users = 0
         self._readers = 0
         self._closed = False
-        self._freed = False
         self._lock = threading.Lock()
         self._owner: int | None = None
+        self._freed = False
 
     def need(self, other: Handle) -> None:
         """Keep `other` until this one has been freed."""
@@ -190,7 +192,7 @@ class Handle:
 
     def _release(self) -> None:
         with self._counting:
-            if self._closed and self._users == 0 and not self._freed:
+            if not self._freed and self._closed and self._users == 0:
                 self._freed = True
                 self._free(ctypes.byref(self._pointer))
                 for other in self._needs:

@@ -79,7 +79,8 @@ class Decks(InFolder):
     def test_springs(self):
         deck = self.read(
             NODES + "CBUSH1D,1,10,1,3\nCBUSH1D,2,20,2,,0\nCBUSH1D,3,30,1,2\nPBUSH1D,10,4.\n,SPRING,TABLE,6\n"
-            "PBUSH1D,20\n,SPRING,8\n,DAMPER,TABLE,4\nPBUSH1D,30,7.\nTABLED1,6\n,-1.,0.,.5,0.,1.,2.,1.5,4.\n,2.,4.,ENDT\n"
+            "PBUSH1D,20\n,SPRING,8\n,DAMPER,TABLE,4\nPBUSH1D,30,7.\n"
+            "TABLED1,6\n,-1.,0.,.5,0.,1.,2.,1.5,4.\n,2.,4.,ENDT\n"
             "TABLED1,8\n,-3.,-8.,-1.,0.,2.,0.,ENDT\n"
         )
         self.assertEqual(deck.link_names, ["CBUSH1D 1", "CBUSH1D 2"])

@@ -46,6 +46,19 @@ class Libraries(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertRegex(result.stdout, r"\[\[0.5\]\]\nERR_UNSUPPORTED .*CHOLMOD")
 
+    def test_handle_without_its_function(self):
+        code = (
+            "import ctypes\n"
+            "from fuge._calls import Handle\n"
+            "try:\n"
+            "    Handle('ghost', 'fuge_ghost_free', ctypes.c_void_p())\n"
+            "except (AttributeError, ImportError):\n"
+            "    print('refused')\n"
+        )
+        result = run(code, _library._path("fuge").parent)
+        self.assertEqual(result.stdout, "refused\n")
+        self.assertEqual(result.stderr, "")
+
 
 class Pickles(unittest.TestCase):
     def test_errors_and_warnings(self):

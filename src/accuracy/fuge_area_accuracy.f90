@@ -37,8 +37,8 @@ module fuge_area_accuracy
   !> Finer cells see for themselves what coarser ones miss.
   integer, parameter :: MOST_LOOKED_BETWEEN = 2**14
   integer, parameter :: DEFAULT_MOST_CELLS = 2**22
-  !> How many times finer a grid may be than the one before, at most and at least, and how much longer a solve takes with
-  !> more cells, in their numbers.
+  !> How many times finer a grid may be than the one before, at most and at least, and how much longer a solve takes
+  !> with more cells, in their numbers.
   real(dp), parameter :: LARGEST_GROWTH = 2.0_dp, LEAST_GROWTH = 1.2_dp, LONGER = 1.25_dp
 
 contains
@@ -46,10 +46,10 @@ contains
   !> Press bodies together on the rectangle from `lower` (2) to `upper` (2), to an estimated error of the pressure of
   !> `pressing%accuracy`.
   !>
-  !> The rectangle is the body: where the contact reaches a side, `contact%at_rim` tells so, and the body is taken to end
-  !> there. `gap` is the initial gap; `lower` < `upper`, length; `pressing` as described there. Out: `contact`. Round and
-  !> smooth bodies in one disc of contact are solved by a series; else grids of equal cells by FFT become finer until the
-  !> estimated error is reached. A feature of the gap that none of the samples meets can be missed
+  !> The rectangle is the body: where the contact reaches a side, `contact%at_rim` tells so, and the body is taken to
+  !> end there. `gap` is the initial gap; `lower` < `upper`, length; `pressing` as described there. Out: `contact`.
+  !> Round and smooth bodies in one disc of contact are solved by a series; else grids of equal cells by FFT become
+  !> finer until the estimated error is reached. A feature of the gap that none of the samples meets can be missed
   !> (doc/tutorial_accuracy.md has how often the estimates held).
   !>
   !> `info` is that of the last solve, or FUGE_WARN_ACCURACY with what was reached, if most_cells, most_seconds or the
@@ -148,7 +148,8 @@ contains
         if (info%failed() .or. .not. search%misses) return
       end if
       growth = next_growth(search%history, pressing%accuracy, LARGEST_GROWTH)
-      growth = min(growth, sqrt(real(pressing%cells_allowed(DEFAULT_MOST_CELLS), dp)/product(real(search%level%cells, dp))))
+      growth = min(growth, sqrt(real(pressing%cells_allowed(DEFAULT_MOST_CELLS), dp) &
+                                /product(real(search%level%cells, dp))))
       call see_obstacles(pressing, growth, search)
       if (allocated(search%obstacle)) return
       before = search%level

@@ -33,9 +33,9 @@ module fuge_gap_features
 
 contains
 
-  !> The features between `left` and `right`, ascending, unless the gap `is_rough`: not smooth in more than MOST_FEATURES
-  !> places. A feature that changes the gap at none of the first samples may be overlooked. Errors: those of
-  !> `sample_gap`.
+  !> The features between `left` and `right`, ascending, unless the gap `is_rough`: not smooth in more than
+  !> MOST_FEATURES places. A feature that changes the gap at none of the first samples may be overlooked. Errors: those
+  !> of `sample_gap`.
   subroutine find_features(gap, left, right, features, is_rough, info)
     class(fuge_gap_function), intent(in) :: gap
     real(dp), intent(in) :: left, right
@@ -63,7 +63,8 @@ contains
     call next_run(suspect, 1, first, last)
     do while (first <= INTERVALS)
       last = min(last, first + LONGEST_RUN - 1)
-      call add_features(gap, [x(2*max(first - 2, 0)), x(2*min(last + 1, INTERVALS))], [left, right], range, features, info)
+      call add_features(gap, [x(2*max(first - 2, 0)), x(2*min(last + 1, INTERVALS))], [left, right], range, features, &
+                        info)
       if (info%failed()) return
       call next_run(suspect, last + 1, first, last)
     end do
@@ -71,8 +72,8 @@ contains
     call sort(features)
   end subroutine find_features
 
-  !> In which intervals, (INTERVALS), does the cubic through the nearest four ends miss the `height` in the middle by too
-  !> much? `height` has ends and middles in turn.
+  !> In which intervals, (INTERVALS), does the cubic through the nearest four ends miss the `height` in the middle by
+  !> too much? `height` has ends and middles in turn.
   pure function misses_of_cubics(height, range) result(misses)
     real(dp), intent(in) :: height(0:), range
     logical :: misses(INTERVALS)
@@ -89,7 +90,8 @@ contains
     end do
   end function misses_of_cubics
 
-  !> Add the feature in `bracket`, and those on both sides of it: a tooth has two jumps. Errors: those of the gap function.
+  !> Add the feature in `bracket`, and those on both sides of it: a tooth has two jumps. Errors: those of the gap
+  !> function.
   subroutine add_features(gap, bracket, ends, range, features, info)
     class(fuge_gap_function), intent(in) :: gap
     real(dp), intent(in) :: bracket(2), ends(2), range
@@ -167,7 +169,8 @@ contains
     bend = abs(height(1::3) - 2.0_dp*height(2::3) + height(3::3))
     feature%jumps = bend(1) < 4.0_dp*bend(3) .and. bend(3) > ROUNDING*range
     found = feature%jumps .or. (bend(1) < 8.0_dp*TEST_STEP**2*bend(3) &
-                                .and. bend(3) > max(1.0e-4_dp*ROUNDING*range, 64.0_dp*epsilon(1.0_dp)*maxval(abs(height))))
+                                .and. bend(3) > max(1.0e-4_dp*ROUNDING*range, &
+                                                    64.0_dp*epsilon(1.0_dp)*maxval(abs(height))))
   end subroutine judge
 
   !> Sort by place; there are few.

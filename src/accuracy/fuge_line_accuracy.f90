@@ -2,7 +2,8 @@
 module fuge_line_accuracy
   use fuge_gap_function_type, only: fuge_gap_function
   use fuge_kinds, only: dp
-  use fuge_line_refinement, only: begin_search, give_level, is_smooth, line_search, refine_equal_cells, refine_graded_cells
+  use fuge_line_refinement, only: begin_search, give_level, is_smooth, line_search, refine_equal_cells, &
+    refine_graded_cells
   use fuge_line_series, only: give_series, series_suits, solve_by_series
   use fuge_number_text, only: text
   use fuge_pressing_type, only: check_extent, check_pressing, fuge_pressing, warn_of_accuracy
@@ -22,9 +23,9 @@ contains
   !> The interval is the body: where the contact reaches an end, `contact%at_rim` tells so, and the body is taken to end
   !> there. `gap` is the initial gap; `left` < `right`, length; `pressing` as described there. Out: `contact`. A smooth
   !> profile in one contact is solved by a series; up to eight intervals of contact on cells that are narrow at their
-  !> ends and at kinks and jumps of the gap; all else on equal cells by FFT. Grids become finer until the estimated error
-  !> is reached. A feature of the gap that none of the samples meets, which lie closer than a 512th of the interval, can
-  !> be missed (doc/tutorial_accuracy.md has how often the estimates held).
+  !> ends and at kinks and jumps of the gap; all else on equal cells by FFT. Grids become finer until the estimated
+  !> error is reached. A feature of the gap that none of the samples meets, which lie closer than a 512th of the
+  !> interval, can be missed (doc/tutorial_accuracy.md has how often the estimates held).
   !>
   !> `info` is that of the last solve, or FUGE_WARN_ACCURACY with what was reached, if most_cells, most_seconds or the
   !> memory ended the search. Errors, `contact` untouched: FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH unless left < right,

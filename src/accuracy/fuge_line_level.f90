@@ -61,7 +61,8 @@ contains
     if (.not. info%failed()) call solve_level(operator, pressing, level, info)
   end subroutine solve_graded_cells
 
-  !> Solve on the equal cells `level%mesh`, by FFT. Errors: those of the gap function, of the operator and of the solver.
+  !> Solve on the equal cells `level%mesh`, by FFT. Errors: those of the gap function, of the operator and of the
+  !> solver.
   subroutine solve_equal_cells(gap, pressing, level, info)
     class(fuge_gap_function), intent(in) :: gap
     type(fuge_pressing), intent(in) :: pressing
@@ -125,8 +126,8 @@ contains
     if (info%status == FUGE_DONE) call report(info, FUGE_DONE, '')
   end subroutine solve_level
 
-  !> Do contacts of several cells carry most of the load? In one or two cells forces are those of the cells, and no finer
-  !> grid would differ from them.
+  !> Do contacts of several cells carry most of the load? In one or two cells forces are those of the cells, and no
+  !> finer grid would differ from them.
   pure function is_resolved(level)
     type(line_level), intent(in) :: level
     logical :: is_resolved

@@ -23,12 +23,13 @@ module fuge_line_mesh
     real(dp) :: weight = 0.0_dp
   end type mesh_part
 
-  !> Parts of the cells of an open part, and of the zone of an open part beside a contact, relative to a part in contact.
+  !> Parts of the cells of an open part, and of the zone of an open part beside a contact, relative to a part in
+  !> contact.
   real(dp), parameter :: OPEN_WEIGHT = 0.5_dp, ZONE_WEIGHT = 0.25_dp
   !> Length of that zone, relative to that of the contact, and at most to that of the open part.
   real(dp), parameter :: ZONE_LENGTH = 0.15_dp, LARGEST_ZONE = 0.4_dp
-  !> The same beside a part that has a corner or a kink at its other end, because how far a contact reaches beyond a kink
-  !> is not known even roughly at first.
+  !> The same beside a part that has a corner or a kink at its other end, because how far a contact reaches beyond a
+  !> kink is not known even roughly at first.
   real(dp), parameter :: ZONE_BESIDE_CORNER = 1.0_dp
   !> Fewest cells of a part.
   integer, parameter :: FEWEST_CELLS = 4
@@ -64,8 +65,8 @@ contains
     border(n + 1) = mesh%x(n) + 0.5_dp*mesh%width(n)
   end function borders
 
-  !> The intervals of contact, (2, k), from the forces of the cells. An end is where the square of the pressure, which is
-  !> linear there, would be zero, but no farther from the border of the last cell than its width, and inside.
+  !> The intervals of contact, (2, k), from the forces of the cells. An end is where the square of the pressure, which
+  !> is linear there, would be zero, but no farther from the border of the last cell than its width, and inside.
   pure function contact_intervals(mesh, force) result(intervals)
     type(line_mesh), intent(in) :: mesh
     real(dp), intent(in) :: force(:)
@@ -180,7 +181,8 @@ contains
     end do
   end subroutine graded_mesh
 
-  !> The parts of the interval between its ends, the features and the ends of the contacts, with the kinds of their ends.
+  !> The parts of the interval between its ends, the features and the ends of the contacts, with the kinds of their
+  !> ends.
   pure function parts_of_line(left, right, features, contacts) result(parts)
     real(dp), intent(in) :: left, right, contacts(:, :)
     type(gap_feature), intent(in) :: features(:)

@@ -87,8 +87,8 @@ contains
   end function is_smooth
 
   !> Solve on cells that are graded towards the ends of the contact and the features, more and more, until the wanted
-  !> error is reached or something ends the search. It is not `done` if there are too many contacts or features, or equal
-  !> cells are the shorter way.
+  !> error is reached or something ends the search. It is not `done` if there are too many contacts or features, or
+  !> equal cells are the shorter way.
   subroutine refine_graded_cells(gap, pressing, search, done, info)
     class(fuge_gap_function), intent(in) :: gap
     type(fuge_pressing), intent(in) :: pressing
@@ -209,8 +209,8 @@ contains
     if (share > 0.0_dp) share = share/sum(force)
   end function load_at_ends
 
-  !> The places where contact is missed, (2, k); none without a load, where the bodies touch at one place. Errors: those of
-  !> the gap function.
+  !> The places where contact is missed, (2, k); none without a load, where the bodies touch at one place. Errors: those
+  !> of the gap function.
   subroutine look_between(gap, search, missed, info)
     class(fuge_gap_function), intent(in) :: gap
     type(line_search), intent(in) :: search
@@ -224,8 +224,8 @@ contains
     end if
   end subroutine look_between
 
-  !> The length over which the pressure varies at each end of the contacts `intervals`, (2, k), (2, k): that of the contact,
-  !> or the distance from a kink if that is less.
+  !> The length over which the pressure varies at each end of the contacts `intervals`, (2, k), (2, k): that of the
+  !> contact, or the distance from a kink if that is less.
   pure function lengths_at_ends(features, intervals) result(lengths)
     type(gap_feature), intent(in) :: features(:)
     real(dp), intent(in) :: intervals(:, :)
@@ -386,7 +386,8 @@ contains
     width = 0.0_dp
     associate (force => level%solution%force)
       do k = 2, size(force)
-        if (force(k) > 0.0_dp .neqv. force(k - 1) > 0.0_dp) width = max(width, level%mesh%width(k), level%mesh%width(k - 1))
+        if (force(k) > 0.0_dp .eqv. force(k - 1) > 0.0_dp) cycle
+        width = max(width, level%mesh%width(k), level%mesh%width(k - 1))
       end do
     end associate
   end function end_width

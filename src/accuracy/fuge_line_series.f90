@@ -67,8 +67,8 @@ contains
 
   !> The gap as a Chebyshev series along a straight line, if it is smooth there: more and more samples, up to `longest`,
   !> until the last coefficients are rounding and places between the samples agree. The line starts at `origin` (2),
-  !> length, in `direction` (2), of length 1; the series is one of the distance, between `ends` (2). Errors: those of the
-  !> gap function.
+  !> length, in `direction` (2), of length 1; the series is one of the distance, between `ends` (2). Errors: those of
+  !> the gap function.
   subroutine sample_series(gap, origin, direction, ends, longest, profile, is_smooth, info)
     class(fuge_gap_function), intent(in) :: gap
     real(dp), intent(in) :: origin(2), direction(2), ends(2)
@@ -119,8 +119,8 @@ contains
     is_same = status == FUGE_DONE .and. maxval(abs(series - height)) <= SAME*maxval(abs(height))
   end subroutine look_between
 
-  !> Does the profile fall to one lowest place and rise again? Otherwise there may be several contacts, and finding that out
-  !> by series takes longer than cells do.
+  !> Does the profile fall to one lowest place and rise again? Otherwise there may be several contacts, and finding that
+  !> out by series takes longer than cells do.
   function has_one_valley(profile) result(has_one)
     type(fuge_sampled_profile), intent(in) :: profile
     logical :: has_one
@@ -135,8 +135,8 @@ contains
     end associate
   end function has_one_valley
 
-  !> Give the contact of a series as one on equal cells, whose forces are integrals of the pressure. Errors: those of the
-  !> gap function.
+  !> Give the contact of a series as one on equal cells, whose forces are integrals of the pressure. Errors: those of
+  !> the gap function.
   subroutine give_series(gap, left, right, series, contact, info)
     class(fuge_gap_function), intent(in) :: gap
     real(dp), intent(in) :: left, right

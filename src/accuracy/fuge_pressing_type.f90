@@ -85,8 +85,8 @@ contains
       call report(info, FUGE_ERR_OPTION, 'boundary = '//text(pressing%boundary) &
                   //' is unknown here: use FUGE_FREE or FUGE_PERIODIC')
     else if (allocated(pressing%moment) .and. (allocated(pressing%approach) .or. pressing%boundary /= FUGE_FREE)) then
-      call report(info, FUGE_ERR_UNSUPPORTED, 'a moment is for a free surface under a load: without it the bodies only ' &
-                  //'approach each other')
+      call report(info, FUGE_ERR_UNSUPPORTED, 'a moment is for a free surface under a load: without it the bodies ' &
+                  //'only approach each other')
     end if
     if (.not. info%failed()) call check_motion(pressing, info)
     if (.not. info%failed()) call check_limits(pressing, info)

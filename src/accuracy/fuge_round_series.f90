@@ -168,9 +168,9 @@ contains
     has_tip = status /= FUGE_DONE .or. abs(slope(1))*profile%upper > NO_TIP*(height(2) - height(1))
   end function has_tip
 
-  !> Is the gap that of the profile, `is_same`, wherever this reaches? `lowest` is that of the gaps farther from the axis,
-  !> huge if there are none. The arguments are nine: the gap and its rectangle, what was found of it, two results. Errors:
-  !> those of the gap function.
+  !> Is the gap that of the profile, `is_same`, wherever this reaches? `lowest` is that of the gaps farther from the
+  !> axis, huge if there are none. The arguments are nine: the gap and its rectangle, what was found of it, two results.
+  !> Errors: those of the gap function.
   subroutine look_everywhere(gap, lower, upper, axis, profile, accuracy, is_same, lowest, info)
     class(fuge_gap_function), intent(in) :: gap
     real(dp), intent(in) :: lower(2), upper(2), axis(2), accuracy
@@ -191,8 +191,8 @@ contains
     allocate (series(size(r)), slope(size(r)))
     call profile%evaluate(min(r, profile%upper), series, slope, status)
     if (status /= FUGE_DONE) return
-    is_same = all(abs(height - series) <= PART_OF_ACCURACY*accuracy*(series - minval(series)) + SAME*maxval(abs(series)) &
-                  .or. r > profile%upper)
+    is_same = all(abs(height - series) <= PART_OF_ACCURACY*accuracy*(series - minval(series)) &
+                  + SAME*maxval(abs(series)) .or. r > profile%upper)
     lowest = minval(height, mask=r > profile%upper)
   end subroutine look_everywhere
 
@@ -243,8 +243,8 @@ contains
     contact%size_error = 2.0_dp*max(LEAST_ERROR, series%radius_error)*contact%size
   end subroutine give_round_series
 
-  !> Forces of the cells: sums of pressures, of more places in cells that the rim of the contact crosses; and the largest
-  !> pressure.
+  !> Forces of the cells: sums of pressures, of more places in cells that the rim of the contact crosses; and the
+  !> largest pressure.
   subroutine integrate_pressure(series, axis, contact)
     type(fuge_round_contact), intent(in) :: series
     real(dp), intent(in) :: axis(2)

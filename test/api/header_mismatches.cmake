@@ -48,6 +48,7 @@ expect_mismatch(fuge.h "#endif" "int fuge_reset(fuge_solver *s);\n#endif" "fuge.
 expect_mismatch(fuge_punches.h "#include \"fuge_elastic.h\"" "#include \"fuge_fe.h\""
   "fuge_punches.h includes fuge_fe.h: punches may not use it")
 expect_mismatch(fuge.h "#include \"fuge_punches.h\"" ""
-  "fuge.h includes fuge_accuracy.h;fuge_core.h;fuge_elastic.h;fuge_fe.h;fuge_files.h;fuge_halfplane.h;fuge_halfspace.h;fuge_layers.h;fuge_rings.h")
+  "fuge.h includes fuge_accuracy.h;fuge_core.h;fuge_elastic.h;fuge_fe.h;fuge_files.h;fuge_halfplane.h;\
+fuge_halfspace.h;fuge_layers.h;fuge_rings.h")
 file(WRITE "${SCRATCH}/include/fuge_walls.h" "\n")
 expect_failure("no component has the header fuge_walls.h")

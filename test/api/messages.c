@@ -121,11 +121,13 @@ static int solver_zeroed(char *message, size_t len) {
 }
 
 static int load_path_pulls(char *message, size_t len) {
-  return fuge_load_path(dense, X, -1.0, 2, reals, reals + 2, reals + 4, ints, ints + 2, ints + 4, ints + 6, message, len);
+  return fuge_load_path(dense, X, -1.0, 2, reals, reals + 2, reals + 4, ints, ints + 2, ints + 4, ints + 6, message,
+                        len);
 }
 
 static int load_path_of_springs(char *message, size_t len) {
-  return fuge_load_path(springs, X, 1.0, 2, reals, reals + 2, reals + 4, ints, ints + 2, ints + 4, ints + 6, message, len);
+  return fuge_load_path(springs, X, 1.0, 2, reals, reals + 2, reals + 4, ints, ints + 2, ints + 4, ints + 6, message,
+                        len);
 }
 
 static int body_dense(char *message, size_t len) { return fuge_body_dense(2, TABLE1_ALPHA, 1, &body, message, len); }

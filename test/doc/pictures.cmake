@@ -48,8 +48,8 @@ foreach(page IN LISTS pages)
 endforeach()
 
 set(scripts "")
-file(GLOB plots "${ROOT}/examples/plots/*.gp" "${ROOT}/bench/*.gp" "${ROOT}/doc/site/*.gp" "${ROOT}/doc/site/components.py"
-  "${ROOT}/examples/calculix/pictures.py" "${ROOT}/CONTRIBUTING.md")
+file(GLOB plots "${ROOT}/examples/plots/*.gp" "${ROOT}/bench/*.gp" "${ROOT}/doc/site/*.gp"
+  "${ROOT}/doc/site/components.py" "${ROOT}/examples/calculix/pictures.py" "${ROOT}/CONTRIBUTING.md")
 foreach(plot IN LISTS plots)
   read_text("${plot}" text)
   string(APPEND scripts "${text}")

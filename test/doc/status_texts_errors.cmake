@@ -22,15 +22,18 @@ function(expect_error file old new expected)
   endif()
 endfunction()
 
-expect_error(src/core/base/fuge_status.f90 "'unknown element'" "'unknown cell'" "doc/errors.md lacks: ### FUGE_ERR_ELEMENT .-6.")
+expect_error(src/core/base/fuge_status.f90 "'unknown element'" "'unknown cell'"
+  "doc/errors.md lacks: ### FUGE_ERR_ELEMENT .-6.")
 expect_error(src/core/base/fuge_status.f90 "'unknown element'" "'unknown cell'" "fuge.3 lacks: .BR FUGE_ERR_ELEMENT")
 expect_error(src/core/base/fuge_status.f90 "'unknown element'" "'unknown cell'"
   "fuge_core.h says of FUGE_ERR_ELEMENT = -6")
 expect_error(src/core/base/fuge_status.f90 "    'unknown element', &\n" "" "35 codes, 34 texts")
 expect_error(doc/errors.md "FUGE_ERR_WIDTH (-4)" "FUGE_ERR_WIDTH (-5)" "doc/errors.md lacks: ### FUGE_ERR_WIDTH .-4.")
 expect_error(doc/errors.md "### FUGE_DONE" "### FUGE_NEW (6)\n\n*new*\n\n### FUGE_DONE" "36 headings for 35 codes")
-expect_error(doc/man/fuge.3 "FUGE_ERR_WIDTH \" (\\-4)\"" "FUGE_ERR_WIDTH \" (\\-5)\"" "fuge.3 lacks: .BR FUGE_ERR_WIDTH")
-expect_error(doc/man/fuge.3 ".TP\n.BR FUGE_DONE" ".TP\n.BR FUGE_FINE \" (0)\"\ndone\n.TP\n.BR FUGE_DONE" "36 items for 35")
+expect_error(doc/man/fuge.3 "FUGE_ERR_WIDTH \" (\\-4)\"" "FUGE_ERR_WIDTH \" (\\-5)\""
+  "fuge.3 lacks: .BR FUGE_ERR_WIDTH")
+expect_error(doc/man/fuge.3 ".TP\n.BR FUGE_DONE" ".TP\n.BR FUGE_FINE \" (0)\"\ndone\n.TP\n.BR FUGE_DONE"
+  "36 items for 35")
 expect_error(include/fuge_core.h "/* done, but the residual is above" "/* the residual is above"
   "of FUGE_WARN_RESIDUAL = 1")
 expect_error(include/fuge_core.h "FUGE_ERR_WIDTH = -4" "FUGE_ERR_WIDTH = -5" "of FUGE_ERR_WIDTH = -4 \"\"")

@@ -19,7 +19,8 @@ endfunction()
 
 expect_refusal("${PREFIX}" nonsense "there is no component nonsense. Components of this copy: [a-z, ]*${KIND}")
 expect_refusal("${PREFIX}" "${KIND};nonsense" "there is no component nonsense")
-expect_refusal("${PREFIX}" "static;shared" "not installed here as a static library|static and shared exclude each other")
+expect_refusal("${PREFIX}" "static;shared"
+  "not installed here as a static library|static and shared exclude each other")
 
 # A copy without the optional parts.
 file(REMOVE_RECURSE "${SCRATCH}_prefix")
@@ -33,7 +34,8 @@ file(WRITE "${folder}/fuge-${KIND}-features.cmake"
 foreach(component IN ITEMS fft=FFTW sparse=CHOLMOD mpi=MPI punches=punches)
   string(REGEX MATCH "^(.*)=(.*)$" component "${component}")
   expect_refusal("${SCRATCH}_prefix" ${CMAKE_MATCH_1}
-    "was built without ${CMAKE_MATCH_2} .* this copy: core, elastic, halfplane, halfspace, rings, layers, fe, ${KIND}\\.")
+    "was built without ${CMAKE_MATCH_2} .* this copy: core, elastic, halfplane, halfspace, rings, layers, fe, \
+${KIND}\\.")
 endforeach()
 file(WRITE "${folder}/fuge-${KIND}-features.cmake" "set(fuge_WITH_FFTW OFF)\nset(fuge_COMPONENTS core)\n")
 expect_refusal("${SCRATCH}_prefix" sparse "was built without fe .FUGE_COMPONENTS., which sparse needs")

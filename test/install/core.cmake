@@ -62,7 +62,8 @@ execute_process(COMMAND "${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/compone
   "-DCMAKE_PREFIX_PATH=${prefix}" "-DCOMPONENTS=halfspace" RESULT_VARIABLE status OUTPUT_VARIABLE output
   ERROR_VARIABLE output)
 string(REGEX REPLACE "[ \n]+" " " output "${output}")
-if(status EQUAL 0 OR NOT output MATCHES "was built without halfspace .FUGE_COMPONENTS.. Components of this copy: core, ")
+if(status EQUAL 0
+    OR NOT output MATCHES "was built without halfspace .FUGE_COMPONENTS.. Components of this copy: core, ")
   message(SEND_ERROR "the component halfspace is not refused: ${output}")
 endif()
 # Other subsets can be configured, with their tests.

@@ -20,7 +20,8 @@ endfunction()
 expect_copies("${SOURCE_DIR}/include" *.h "${PREFIX}/${INCLUDEDIR}")
 if(COMPILER_ID STREQUAL "GNU")
   # The public modules are complete in themselves.
-  set(public_modules fuge.mod fuge_core.mod fuge_elastic.mod fuge_halfplane.mod fuge_halfspace.mod fuge_rings.mod fuge_layers.mod fuge_punches.mod fuge_fe.mod fuge_files.mod fuge_accuracy.mod)
+  set(public_modules fuge.mod fuge_core.mod fuge_elastic.mod fuge_halfplane.mod fuge_halfspace.mod fuge_rings.mod
+    fuge_layers.mod fuge_punches.mod fuge_fe.mod fuge_files.mod fuge_accuracy.mod)
   foreach(module IN LISTS public_modules)
     expect_copies("${BUILD_DIR}/modules" ${module} "${PREFIX}/${MODULEDIR}")
   endforeach()

@@ -16,7 +16,8 @@ for word; do
   case $word in -o | -J | -I) previous=$word ;; *) previous='' ;; esac
 done
 
-# Where fuge is a part of another project it is in the folder fuge of its build; fpm has a name for the object of its own.
+# Where fuge is a part of another project it is in the folder fuge of its build; fpm has a name for the object of its
+# own.
 case $object in
   *CMakeFiles/*)
     name=${object#fuge/}

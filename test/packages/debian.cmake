@@ -90,8 +90,8 @@ endforeach()
 set(PREFIX "${root}/usr")
 foreach(folder IN ITEMS c fortran)
   set(what "${folder} by find_package, Debian packages")
-  run("${what}: configure" "${CMAKE_COMMAND}" -S "${INSTALL_TESTS}/${folder}" -B "${SCRATCH}/${folder}" -G "${GENERATOR}"
-    "-DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM}" "-DCMAKE_PREFIX_PATH=${PREFIX}" -DKIND=shared
+  run("${what}: configure" "${CMAKE_COMMAND}" -S "${INSTALL_TESTS}/${folder}" -B "${SCRATCH}/${folder}"
+    -G "${GENERATOR}" "-DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM}" "-DCMAKE_PREFIX_PATH=${PREFIX}" -DKIND=shared
     -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_Fortran_COMPILER=${Fortran_COMPILER})
   run("${what}: build" "${CMAKE_COMMAND}" --build "${SCRATCH}/${folder}" --target consumer)
   expect_answer("${what}" "${SCRATCH}/${folder}/consumer")
@@ -102,7 +102,8 @@ if(PKG_CONFIG)
     if(source MATCHES "f90$")
       set(compiler "${Fortran_COMPILER}")
     endif()
-    run("pkg-config" "${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${root}/${LIBDIR}/pkgconfig" "${PKG_CONFIG}" --cflags --libs fuge)
+    run("pkg-config" "${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${root}/${LIBDIR}/pkgconfig"
+      "${PKG_CONFIG}" --cflags --libs fuge)
     separate_arguments(flags UNIX_COMMAND "${output}")
     get_filename_component(name "${source}" DIRECTORY)
     run("${source}: compile" "${compiler}" "${INSTALL_TESTS}/${source}" -o "${SCRATCH}/${name}_by_pkg_config" ${flags})

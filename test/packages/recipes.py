@@ -23,7 +23,8 @@ header = (sources / "include" / "fuge_core.h").read_text(encoding="utf-8")
 version = re.search(r'FUGE_VERSION "([^"]+)"', header).group(1)
 cmake = (sources / "CMakeLists.txt").read_text(encoding="utf-8")
 options = set(re.findall(r"(?:option\(|set\()((?:FUGE|BUILD)_\w+)", cmake))
-fftw = re.search(r"FFTW (\d[\d.]*) or newer", (sources / "cmake" / "FindFFTW.cmake").read_text(encoding="utf-8")).group(1)
+find_fftw = (sources / "cmake" / "FindFFTW.cmake").read_text(encoding="utf-8")
+fftw = re.search(r"FFTW (\d[\d.]*) or newer", find_fftw).group(1)
 least_cmake = re.search(r"cmake_minimum_required\(VERSION ([\d.]+)\)", cmake).group(1)
 
 
@@ -40,6 +41,7 @@ for name in ("recipe.yaml", "meta.yaml"):
     for needed in ("fftw", "liblapack", "libblas", "suitesparse", "compiler('fortran')", "compiler('c')"):
         expect(needed in text, f"{name}: {needed} is missing")
     expect("- fuge " not in text, f"{name}: the command `fuge` is part of the Python package")
+    expect("\n  path: ../..\n" in text, f"{name}: script/release does not find the path of the sources")
     expect("license: BSD-3-Clause AND GPL-2.0-or-later\n" in text, f"{name}: licences")
 
 said = []
@@ -73,7 +75,9 @@ scope = {"__name__": "package"}
 exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), scope)  # noqa: S102
 arguments = scope["Fuge"]().cmake_args()
 check_options({argument[2:].split("=")[0] for argument in arguments}, "package.py")
-expect(any(kind == "version" and values == (version,) for kind, values, _ in said), f"package.py: not version {version}")
+expect(f'\n    version("{version}")\n' in path.read_text(encoding="utf-8"), "package.py: no line for script/release")
+versions = [values for kind, values, _ in said if kind == "version"]
+expect((version,) in versions, f"package.py: not version {version}")
 needs = [values[0] for kind, values, _ in said if kind == "depends_on"]
 for needed in ("c", "fortran", "lapack", "blas", "mpi", "suite-sparse", f"cmake@{least_cmake}:"):
     expect(needed in needs, f"package.py: does not depend on {needed}")

@@ -1,9 +1,9 @@
 """Install a wheel into a system that has nothing but Python, numpy, scipy and the C library, and use it there.
 
 bare.py PROGRAM SCRATCH WHEEL: Python runs PROGRAM in a folder that is the root of all files for it. The folder has this
-Python with its standard library, numpy and scipy of this Python, and of the libraries of this system those that Python's own
-modules need and those that every wheel may count on. There is no shell, no compiler, no Fortran, no BLAS, no FFTW.
-WHEEL is a file, or a folder with its content.
+Python with its standard library, numpy and scipy of this Python, and of the libraries of this system those that
+Python's own modules need and those that every wheel may count on. There is no shell, no compiler, no Fortran, no BLAS,
+no FFTW. WHEEL is a file, or a folder with its content.
 """
 
 from __future__ import annotations

@@ -7,7 +7,8 @@ file(COPY "${SOURCES}/" DESTINATION "${SCRATCH}")
 # An engine that sees the half-plane, and the certificate's folder that sees an engine.
 plant(core/dense/common/fuge_planted_one.f90
   "module fuge_planted_one\n  use fuge_halfplane_fft, only: a\nend module fuge_planted_one\n"
-  "core/dense/common/fuge_planted_one.f90 uses fuge_halfplane_fft: core/dense/common may not use bodies/halfplane/grid\n")
+  "core/dense/common/fuge_planted_one.f90 uses fuge_halfplane_fft: core/dense/common may not use \
+bodies/halfplane/grid\n")
 plant(core/problem/fuge_planted_two.f90
   "module fuge_planted_two\n  use, non_intrinsic :: fuge_equilibrium\nend module fuge_planted_two\n"
   "core/problem/fuge_planted_two.f90 uses fuge_equilibrium: core/problem may not use core/dense/common\n")
@@ -27,7 +28,8 @@ plant(bodies/rings/folders.txt "field : core/products\n"
   "bodies/rings/folders.txt lets bodies/rings/field use core/products: a body knows no engine\n")
 plant(bodies/layers/stack/fuge_planted_six.f90
   "module fuge_planted_six\n  use fuge_active_set_engine, only: a\nend module fuge_planted_six\n"
-  "bodies/layers/stack/fuge_planted_six.f90 uses fuge_active_set_engine: bodies/layers/stack may not use core/dense/active_set\n")
+  "bodies/layers/stack/fuge_planted_six.f90 uses fuge_active_set_engine: bodies/layers/stack may not use \
+core/dense/active_set\n")
 plant(components.txt "core : files\n" "components.txt has core twice\n")
 plant(components.txt "early : late\nlate :\n" "components.txt lets early use late, which is not above it\n")
 plant(components.txt "district :\n" "components.txt names district, which is not a folder\n")
@@ -55,14 +57,17 @@ plant(bodies/rings/folders.txt "hertz : core/attic\n"
 # Circles: of two folders, and of a folder with one that holds a folder below it.
 plant_instead(core/folders.txt "base :" "base : problem"
   "core/folders.txt lets core/base use core/problem, which is not above it\n")
-plant_instead(core/folders.txt "dense/common : base algebra problem matrices" "dense/common : base algebra problem matrices dense"
+plant_instead(core/folders.txt "dense/common : base algebra problem matrices"
+  "dense/common : base algebra problem matrices dense"
   "core/folders.txt lets core/dense/common use core/dense/tableau, which is not above it\n")
 # Arguments and chains.
 plant(core/base/fuge_planted_eleven.f90
-  "module fuge_planted_eleven\ncontains\n  !> A sum.\n  subroutine add(a, b, c, &\n    d, e, f, g, h, i)\n  end subroutine add\nend module fuge_planted_eleven\n"
+  "module fuge_planted_eleven\ncontains\n  !> A sum.\n  subroutine add(a, b, c, &\n    d, e, f, g, h, \
+i)\n  end subroutine add\nend module fuge_planted_eleven\n"
   "core/base/fuge_planted_eleven.f90: add has 9 arguments, and its docstring does not say why\n")
 plant(core/base/fuge_planted_twelve.f90
-  "module fuge_planted_twelve\ncontains\n  subroutine add(scene)\n    call scene%rows%all%space%agree(info)\n  end subroutine add\nend module fuge_planted_twelve\n"
+  "module fuge_planted_twelve\ncontains\n  subroutine add(scene)\n    \
+call scene%rows%all%space%agree(info)\n  end subroutine add\nend module fuge_planted_twelve\n"
   "core/base/fuge_planted_twelve.f90 reaches through to the space of points: scene%rows%all%space%\n")
 # One file too many.
 file(GLOB files "${SOURCES}/core/base/*.*")

@@ -1,8 +1,8 @@
 # Tests and module fuge: cmake -D ROOT=. -P facade.cmake
 #
 # Module fuge has all public names, and reading it costs a compiler more than all else in a test. So tests use the
-# modules that define what they need; but test/unit/topics/test_facade.pf, which is the test of fuge, and the programs of
-# test/install, which see only what is installed.
+# modules that define what they need; but test/unit/topics/test_facade.pf, which is the test of fuge, and the programs
+# of test/install, which see only what is installed.
 cmake_minimum_required(VERSION 3.20)
 
 get_filename_component(ROOT "${ROOT}" REALPATH)

@@ -1,7 +1,8 @@
 # A test for each module: cmake -D ROOT=. -P untested.cmake
 #
-# Every src/<folder>/[fuge_]X.f90, but for mpi/ and variants/, has ROOT/test/unit/<folder>/test_X.pf, or a line `module: reason` in
-# ROOT/test/unit/untested.txt; files that a reason names exist. Every test_X.pf outside of topics/ has its module.
+# Every src/<folder>/[fuge_]X.f90, but for mpi/ and variants/, has ROOT/test/unit/<folder>/test_X.pf, or a line `module:
+# reason` in ROOT/test/unit/untested.txt; files that a reason names exist. Every test_X.pf outside of topics/ has its
+# module.
 cmake_minimum_required(VERSION 3.20)
 
 get_filename_component(ROOT "${ROOT}" REALPATH)

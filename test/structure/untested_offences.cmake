@@ -6,7 +6,8 @@ foreach(folder IN ITEMS src test)
 endforeach()
 
 plant(src/core/problem/fuge_planted.f90 "!\n"
-  "src/core/problem/fuge_planted.f90 has no test/unit/core/problem/test_planted.pf and no line in test/unit/untested.txt\n")
+  "src/core/problem/fuge_planted.f90 has no test/unit/core/problem/test_planted.pf and no line in \
+test/unit/untested.txt\n")
 plant(src/f77/planted.f90 "!\n" "src/f77/planted.f90 has no test/unit/f77/test_planted.pf and no line")
 plant(src/sparse/fuge_planted.f90 "!\n" "src/sparse/fuge_planted.f90 has no test/unit/sparse/test_planted.pf")
 # A test in the wrong folder counts for no module.

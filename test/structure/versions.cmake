@@ -1,6 +1,7 @@
 # One version: cmake -D ROOT=. -P versions.cmake
 #
-# Each file that repeats the version, such as the manifests of fpm, has the one of include/fuge_core.h.
+# Each file that repeats the version, such as the manifests of fpm, has the one of include/fuge_core.h, and the
+# changelog the date of CITATION.cff.
 cmake_minimum_required(VERSION 3.20)
 
 file(STRINGS "${ROOT}/include/fuge_core.h" line REGEX "define FUGE_VERSION ")
@@ -15,7 +16,7 @@ function(expect_version file pattern)
     list(APPEND offences "${file} gives no version")
   endif()
   foreach(line IN LISTS lines)
-    if(NOT line MATCHES "[ \"'/-]([0-9]+[.][0-9.]+)" OR NOT CMAKE_MATCH_1 STREQUAL version)
+    if(NOT line MATCHES "[ \"'/@v-]([0-9]+[.][0-9.]+)" OR NOT CMAKE_MATCH_1 STREQUAL version)
       list(APPEND offences "${file} has not version ${version}: ${line}")
     endif()
   endforeach()
@@ -31,6 +32,29 @@ expect_version(src/core/base/fuge_version_number.f90 " FUGE_VERSION = ")
 expect_version(CITATION.cff "^version: ")
 expect_version(doc/man/fuge.3 "^[.]TH ")
 expect_version(doc/install.md "fuge-[0-9.]+-py3")
+expect_version(doc/install.md "GIT_TAG v")
+expect_version(packages/README.md "fuge@")
+expect_version(packages/conda/meta.yaml "set version = ")
+expect_version(packages/conda/recipe.yaml "^  version: [0-9]")
+expect_version(packages/spack/packages/fuge/package.py "fuge@|^ *version\\(")
+# Major and minor number, as programs ask for them.
+string(REGEX MATCH "^[0-9]+[.][0-9]+" release "${version}")
+foreach(page IN ITEMS doc/install.md doc/mpi.md)
+  file(READ "${ROOT}/${page}" text)
+  string(REGEX MATCHALL "(find_package.fuge |FIND_PACKAGE_ARGS |libfuge[a-z-]*)[0-9]+[.][0-9]+" names "${text}")
+  foreach(name IN LISTS names)
+    if(NOT name MATCHES "[^0-9]${release}$")
+      list(APPEND offences "${page} has not version ${release}: ${name}")
+    endif()
+  endforeach()
+endforeach()
+file(STRINGS "${ROOT}/CITATION.cff" date REGEX "^date-released: ")
+string(REPLACE "date-released: " "" date "${date}")
+file(STRINGS "${ROOT}/CHANGELOG.md" headings REGEX "^## ")
+list(GET headings 0 heading)
+if(NOT heading STREQUAL "## ${version} (${date})")
+  list(APPEND offences "CHANGELOG.md begins with another version or date than ${version} (${date}): ${heading}")
+endif()
 
 if(offences)
   list(JOIN offences "\n  " offences)

@@ -140,7 +140,8 @@ contains
 
     compliance = with_compliance(alpha, problem)
     stiffness = stiffness_of(problem)
-    energy = 0.5_dp*(dot_product(solution%force, matmul(compliance, solution%force)) + sum(stiffness*solution%motion**2))
+    energy = 0.5_dp*(dot_product(solution%force, matmul(compliance, solution%force)) &
+                     + sum(stiffness*solution%motion**2))
   end function energy_of
 
   !> Try every combination of the five states. `answer` is that of the regular system whose violation is least, zero if

@@ -9,7 +9,8 @@ module pressed_blocks
   implicit none
   private
 
-  public :: linear_field, make_pressed, rotation, scene_stress_error, stress_error, surface_dof, take_block, uniaxial, unturned
+  public :: linear_field, make_pressed, rotation, scene_stress_error, stress_error, surface_dof, take_block, &
+    uniaxial, unturned
 
   real(dp), parameter, public :: PRESSURE = 0.37_dp
   !> The blocks are 1.3 by 1.1 wide and 0.5 and 0.4 high.

@@ -1,4 +1,5 @@
-/* Solves in a thread with 128 kB of stack, which is what musl gives a thread: answers must be those of a large stack. */
+/* Solves in a thread with 128 kB of stack, which is what musl gives a thread: answers must be those of a large
+ * stack. */
 #define _POSIX_C_SOURCE 200112L
 #include <pthread.h>
 #include <stdlib.h>
@@ -25,7 +26,9 @@ static void solve(record *r, const fuge_operator *op, int method, double *force)
   double gap[N];
   fuge_options options;
   fuge_solver *s = NULL;
-  for (int k = 0; k < N; k++) gap[k] = 0.01 * ((k % SIDE - 5.5) * (k % SIDE - 5.5) + (k / SIDE - 5.5) * (k / SIDE - 5.5));
+  for (int k = 0; k < N; k++) {
+    gap[k] = 0.01 * ((k % SIDE - 5.5) * (k % SIDE - 5.5) + (k / SIDE - 5.5) * (k / SIDE - 5.5));
+  }
   fuge_default_options(&options);
   options.method = method;
   options.threads = 1;

@@ -68,7 +68,7 @@ static int spring(int n, const double *f, double *u, void *user) {
 static void solve_by(record *r, const fuge_operator *op, int n, int method, int threads, int number) {
   double gap[LARGE * LARGE], force[LARGE * LARGE], open[LARGE * LARGE], approach, rate;
   const int first = (n - N) / 2;
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   fuge_options options;
   fuge_solver *s = NULL;
   fuge_info info;
@@ -112,11 +112,11 @@ static void follow(record *r, int number) {
   double gap[N], loads[2 * N], approach[2 * N], parameter[2 * N];
   double end = 3.0 * LOAD;
   int path_entries = 0, entries = 0;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_solver *s = NULL;
   make_gap(N, number, gap);
-  expect(r, fuge_load_path(shared.dense, gap, end, 2 * N, loads, approach, NULL, NULL, NULL, NULL, &path_entries, message,
-                           sizeof message), FUGE_DONE);
+  expect(r, fuge_load_path(shared.dense, gap, end, 2 * N, loads, approach, NULL, NULL, NULL, NULL, &path_entries,
+                           message, sizeof message), FUGE_DONE);
   put(r, loads, path_entries);
   put(r, approach, path_entries);
   expect(r, fuge_solver_new(shared.dense, NULL, &s, NULL, 0), FUGE_DONE);
@@ -137,7 +137,7 @@ static void write_grid(record *r, int number) {
   const double spacing[2] = {1.0, 1.0}, values[2] = {number, 0.5};
   const double *const results[1] = {values};
   const char *const names[1] = {"p"};
-  char message[256] = "", path[64];
+  char message[FUGE_MESSAGE_LENGTH + 1] = "", path[64];
   snprintf(path, sizeof path, "threads_scratch_%d.vti", number);
   expect(r, fuge_write_results(path, 2, 1, spacing, NULL, 1, names, results, message, sizeof message), FUGE_DONE);
   remove(path);
@@ -149,7 +149,7 @@ static void write_grid(record *r, int number) {
 /* A matrix that is refused. */
 static void refuse(record *r, int number) {
   double alpha[N * N];
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_operator *op = NULL;
   memcpy(alpha, shared.alpha, sizeof alpha);
   alpha[9 + number * N] += 1.0;

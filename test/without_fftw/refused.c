@@ -27,8 +27,8 @@ static void test_stress_grids(void) {
   char message[FUGE_MESSAGE_LENGTH + 1];
   fuge_field *field = NULL;
 
-  CHECK_SAYS(fuge_field_halfplane_grid(N, 1.0, force, FUGE_MEAN, FUGE_FREE, 1.0, 0.3, FUGE_PLANE_STRAIN, &field, message,
-                                       sizeof message), FUGE_ERR_UNSUPPORTED, message, REASON);
+  CHECK_SAYS(fuge_field_halfplane_grid(N, 1.0, force, FUGE_MEAN, FUGE_FREE, 1.0, 0.3, FUGE_PLANE_STRAIN, &field,
+                                       message, sizeof message), FUGE_ERR_UNSUPPORTED, message, REASON);
   CHECK_SAYS(fuge_field_halfspace_grid(2, 2, 1.0, 1.0, force, FUGE_FREE, 1.0, 0.3, &field, message, sizeof message),
              FUGE_ERR_UNSUPPORTED, message, REASON);
   CHECK(field == NULL);

@@ -14,8 +14,8 @@ module fuge_c_halfplane_fields
 contains
 
   !> Twelve arguments, as in the header: the cells, the body, the field, the message.
-  function c_field_halfplane(n, x, width, force, element, symmetric, young, poisson, plane_state, destination, message, &
-                             length) bind(c, name='fuge_field_halfplane') result(status)
+  function c_field_halfplane(n, x, width, force, element, symmetric, young, poisson, plane_state, destination, &
+                             message, length) bind(c, name='fuge_field_halfplane') result(status)
     integer(c_int), intent(in), value :: n, element, symmetric, plane_state
     type(c_ptr), intent(in), value :: x, width, force, destination, message
     real(c_double), intent(in), value :: young, poisson

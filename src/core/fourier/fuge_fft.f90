@@ -3,7 +3,8 @@
 !> An even number of values is transformed as half as many complex numbers, in place: value 2j + 1 is the
 !> imaginary part that belongs to value 2j, and the caller separates the two (fuge_convolution). FFTW plans
 !> that in a small fraction of the time that it takes for real values. Grids (fuge_grid_convolution) are made of
-!> short lines, each transformed from one buffer to another, which is faster where both stay in cache. Where a grid is transformed as a whole (fuge_grid_waves), its values are not packed.
+!> short lines, each transformed from one buffer to another, which is faster where both stay in cache. Where a grid is
+!> transformed as a whole (fuge_grid_waves), its values are not packed.
 !>
 !> The whole process shares one planner of FFTW, under a lock of this module: a process that is forked waits for it. The
 !> first plan also switches on FFTW's own lock, for a host program that plans transforms in another thread at the same

@@ -228,8 +228,8 @@ contains
     call report(info, FUGE_ERR_NOT_SYMMETRIC, 'alpha('//index_text(i)//','//index_text(j)//') and alpha(' &
       //index_text(j)//','//index_text(i)//') differ by '//text(abs(alpha(i, j) - alpha(j, i))) &
       //' (coefficients from '//text(minval(alpha(:n, :)))//' to '//text(maxval(alpha(:n, :))) &
-      //'): if that is rounding, pass (alpha + alpha^T)/2; if not, it is no contact problem, and the mean has another ' &
-      //'answer')
+      //'): if that is rounding, pass (alpha + alpha^T)/2; if not, it is no contact problem, and the mean has ' &
+      //'another answer')
   end subroutine judge_survey
 
   pure subroutine check_finite_coefficients(alpha, info)

@@ -96,8 +96,8 @@ contains
 
   !> Forces (n) and free motions (m) of the set in `contact` (n), whose factor has lost digits where alpha is badly
   !> conditioned or there are several modes: corrected by the residuals, once where the gaps were closed before that
-  !> already, but for rounding, `fits`. The arguments are ten, because the datum is taken out of alpha for the residuals:
-  !> `datums` that of the operator, and that of the factor.
+  !> already, but for rounding, `fits`. The arguments are ten, because the datum is taken out of alpha for the
+  !> residuals: `datums` that of the operator, and that of the factor.
   subroutine solve_refined(canonical, alpha, datums, factor, contact, reduced_gap, load, force, motion, fits)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in), contiguous :: alpha(:, :)

@@ -35,14 +35,14 @@ contains
     type(fuge_solution), intent(inout) :: solution
     type(fuge_info), intent(inout) :: info
     real(dp), dimension(problem%mode_count()) :: arm, change, rounding
-    real(dp), allocatable :: noise(:), open(:), still_open(:)
+    real(dp), allocatable :: noise(:), opening(:), still_open(:)
     type(point_space) :: space
     integer :: k, n, stat
 
     if (problem%spring_count() < 1) return
     space = operator%ranks()
     n = size(solution%force)
-    allocate (noise(n), open(n), still_open(n), stat=stat)
+    allocate (noise(n), opening(n), still_open(n), stat=stat)
     call require_memory(stat, 'the gaps of', n, 'points', info)
     call space%agree(info)
     if (stat /= 0 .or. info%failed()) return
@@ -50,21 +50,21 @@ contains
     arm = problem%arms()
     call space%raise(arm)
     if (.not. maxval(arm*rounding) > NEGLIGIBLE*depth_of_contact(problem, solution, space)) return
-    call multiply(operator, solution%force, open, info)
+    call multiply(operator, solution%force, opening, info)
     if (info%failed()) return
-    open = open + operator%datum()*space%total(sum(solution%force))
-    if (allocated(problem%compliance)) open = open + problem%compliance*solution%force
+    opening = opening + operator%datum()*space%total(sum(solution%force))
+    if (allocated(problem%compliance)) opening = opening + problem%compliance*solution%force
     do k = 1, n
-      noise(k) = ROUNDINGS*epsilon(noise)*(abs(problem%gap(k)) + abs(open(k)))
-      open(k) = open_gap(problem, solution, k, open(k))
+      noise(k) = ROUNDINGS*epsilon(noise)*(abs(problem%gap(k)) + abs(opening(k)))
+      opening(k) = open_gap(problem, solution, k, opening(k))
     end do
-    change = closing_change(problem, solution%force, open, noise, rounding, space)
+    change = closing_change(problem, solution%force, opening, noise, rounding, space)
     do k = 1, n
-      still_open(k) = merge(compensated_dot(open(k), mode_row(problem, k), change), 0.0_dp, abs(open(k)) > 0.0_dp)
+      still_open(k) = merge(compensated_dot(opening(k), mode_row(problem, k), change), 0.0_dp, abs(opening(k)) > 0.0_dp)
     end do
     ! Several bodies may need different changes.
-    if (space%largest(maxval(abs(still_open))) < space%largest(maxval(abs(open)))) solution%motion = solution%motion &
-      + change
+    if (space%largest(maxval(abs(still_open))) < space%largest(maxval(abs(opening)))) &
+      solution%motion = solution%motion + change
   end subroutine settle_motions
 
   !> What the rounding of resultants makes of the motions on springs, (m); 0 for others.
@@ -141,8 +141,8 @@ contains
   end function mode_row
 
   !> The changes of motions, (m), in the ratio of their `rounding` (m), that close the `open` gaps (n) in the mean, each
-  !> with the weight of its force; 0 where that takes more than rounding, or where these gaps are no more than their own,
-  !> `noise` (n).
+  !> with the weight of its force; 0 where that takes more than rounding, or where these gaps are no more than their
+  !> own, `noise` (n).
   function closing_change(problem, force, open, noise, rounding, space) result(change)
     type(fuge_problem), intent(in) :: problem
     real(dp), intent(in) :: force(:), open(:), noise(:), rounding(:)

@@ -1,5 +1,5 @@
-!> The solve of `fuge_solver`. What engines are made of is known here and not where the type is: neither a compiler nor a
-!> reader of the type has to go through it.
+!> The solve of `fuge_solver`. What engines are made of is known here and not where the type is: neither a compiler nor
+!> a reader of the type has to go through it.
 submodule(fuge_solver_type) fuge_solve_procedure
   use fuge_certified_solution, only: certify
   use fuge_dense_engine, only: dense_engine

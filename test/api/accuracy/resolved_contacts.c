@@ -53,7 +53,7 @@ static double sum(const double *values, int n) {
 static void test_report(void) {
   fuge_resolved *contact = pressed_line();
   fuge_resolved_report report;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   memset(&report, 0xff, sizeof report);
   CHECK_MESSAGE(fuge_resolved_get_report(contact, &report, message, sizeof message), FUGE_DONE, message, "");
   CHECK(report.nx > 1 && report.levels > 0);
@@ -185,7 +185,7 @@ static void test_levels(void) {
 static void test_refusals(void) {
   fuge_resolved *contact = pressed_line(), *none = NULL;
   fuge_resolved_report report;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   double value = SENTINEL;
   int number = -7;
   report.nx = -7;

@@ -86,7 +86,7 @@ static void test_overwritten_forces(void) {
 /* The solve fails with that message, gives no answer, and works when mended. */
 static void check_fails(scene s, const char *part) {
   const scene good = {0};
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   double force[N];
   fuge_info info;
   fuge_operator *op = NULL;
@@ -272,7 +272,7 @@ static void test_solve(void) {
 /* Fails once, at product or preconditioner k: words with its number and the point, no answer; and
  * the same solver goes on when all is well. */
 static int check_bed_fails(int k, int of_preconditioner, int returns) {
-  char message[256] = "", part[64];
+  char message[FUGE_MESSAGE_LENGTH + 1] = "", part[64];
   double force[M];
   user u = {0};
   fuge_info info;
@@ -314,7 +314,7 @@ static void test_bed_failures(void) {
 
 /* Also when it has forces to start from: one call, and no second attempt. */
 static void test_warm_failure(void) {
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   user u = {0};
   fuge_operator *op = NULL;
   fuge_solver *solver = bed_solver(&u, NO_PRECONDITIONER, &op);
@@ -331,7 +331,7 @@ static void test_warm_failure(void) {
 }
 
 static void test_wrong_preconditioner(void) {
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   user u = {0};
   fuge_operator *op = NULL;
   fuge_solver *solver = bed_solver(&u, NO_PRECONDITIONER, &op);
@@ -348,7 +348,7 @@ static void test_wrong_preconditioner(void) {
 /* Engines that need coefficients. */
 static void test_unsupported(void) {
   for (int method = FUGE_TABLEAU; method <= FUGE_ACTIVE_SET; method++) {
-    char message[256] = "";
+    char message[FUGE_MESSAGE_LENGTH + 1] = "";
     user u = {0};
     fuge_options options;
     fuge_operator *op = NULL;
@@ -370,7 +370,7 @@ static void test_unsupported(void) {
 static void test_apply(void) {
   const double f[N] = {1.0, -2.0, 4.0};
   double u[N];
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   scene s = {0};
   fuge_operator *op = NULL;
   CHECK_DONE(fuge_operator_callback(N, multiply, &s, &op, NULL, 0));

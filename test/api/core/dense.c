@@ -101,7 +101,7 @@ static const bad_data BAD_FOR_SOLVE[] = {
 
 static void check_refused(const bad_data *bad) {
   double force[MOST], gap[MOST], approach = SENTINEL;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fill(force, MOST);
   fill(gap, MOST);
   CHECK_SAYS(fuge_solve_dense(bad->n, bad->alpha, bad->lda, bad->gap, bad->load, force, gap, &approach, message,
@@ -121,7 +121,7 @@ static void test_bad_data(void) {
 static void test_repeated_point(void) {
   const double alpha[9] = {2, 1, 1, 1, 2, 2, 1, 2, 2}, zero[3] = {0, 0, 0};
   double force[3], gap[3], approach;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   CHECK_SAYS(fuge_solve_dense(3, alpha, 3, zero, 2.0, force, gap, &approach, message, sizeof message),
              FUGE_WARN_NOT_UNIQUE, message, "singular on the contact");
   CHECK_NEAR(force[0], 1.0, 2.0 * EXACT);
@@ -157,7 +157,7 @@ static void test_null_pointers(void) {
   fill(force, 2);
   fill(gap, 2);
   for (int null = 0; null < 5; null++) {
-    char message[256] = "";
+    char message[FUGE_MESSAGE_LENGTH + 1] = "";
     CHECK_STATUS(solve_with_null(null, force, gap, &approach, message, sizeof message), FUGE_ERR_POINTER);
     CHECK_STRING(message, names[null]);
     CHECK_STATUS(solve_with_null(null, force, gap, &approach, NULL, 100), FUGE_ERR_POINTER);

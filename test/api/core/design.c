@@ -16,7 +16,7 @@ static fuge_solver *new_springs(fuge_operator **op) {
 }
 
 static void check_message(const fuge_solver *solver, const char *part) {
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, part);
 }
 

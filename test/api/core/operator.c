@@ -33,7 +33,7 @@ static void test_padding(void) {
 
 /* A refusal leaves *op as it was. */
 static void check_refused(int n, const double *alpha, int lda, int status, const char *part) {
-  char place, message[256] = "";
+  char place, message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_operator *const before = (fuge_operator *)(void *)&place;
   fuge_operator *op = before;
   CHECK_STATUS(fuge_operator_dense(n, alpha, lda, &op, message, sizeof message), status);
@@ -66,7 +66,7 @@ static void test_asymmetry_limit(void) {
 static void test_halfplane_life_cycle(void) {
   for (int element = FUGE_CENTRE; element <= FUGE_HAT; element++)
     for (int boundary = FUGE_FREE; boundary <= FUGE_PERIODIC; boundary++) {
-      char message[256] = "not written";
+      char message[FUGE_MESSAGE_LENGTH + 1] = "not written";
       fuge_operator *op = NULL;
       fuge_solver *solver = NULL;
       CHECK_DONE(fuge_operator_halfplane(100, 0.25, 3.0, element, boundary, &op, message, sizeof message));
@@ -102,7 +102,7 @@ static const bad_halfplane BAD_HALFPLANE[] = {
 
 /* *op stays as it was, the message says what is wrong. */
 static void test_halfplane_refusals(void) {
-  char place, message[256];
+  char place, message[FUGE_MESSAGE_LENGTH + 1];
   fuge_operator *const before = (fuge_operator *)(void *)&place;
   for (size_t k = 0; k < sizeof BAD_HALFPLANE / sizeof BAD_HALFPLANE[0]; k++) {
     const bad_halfplane *bad = &BAD_HALFPLANE[k];
@@ -243,7 +243,7 @@ static void test_halfplane_threads(void) {
 /* Nothing but the engine of products works without coefficients. */
 static void test_halfplane_unsupported(void) {
   for (int method = FUGE_TABLEAU; method <= FUGE_ACTIVE_SET; method++) {
-    char message[256] = "";
+    char message[FUGE_MESSAGE_LENGTH + 1] = "";
     double force[CELLS], x[CELLS], gap[CELLS];
     int entries = -1;
     fuge_operator *op = NULL;
@@ -316,7 +316,7 @@ static void test_halfplane_cancelled(void) {
 static void check_halfplane_product(int element) {
   static double alpha[CELLS * CELLS];
   double x[CELLS], gap[CELLS], width[CELLS], f[CELLS], u[CELLS], dense[CELLS];
-  char message[256] = "not written";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "not written";
   fuge_operator *op = NULL;
   make_gap(x, gap);
   for (int k = 0; k < CELLS; k++) {
@@ -359,7 +359,7 @@ static void test_product_refusals(void) {
   const double infinite[2] = {1.0, INFINITY}, large[2] = {0.0, -1e308}, f[2] = {1.0, 2.0};
   const double compliant[4] = {1e200, 0.0, 0.0, 1e200}, forces[2] = {1e200, 0.0};
   double u[2];
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_operator *op = NULL;
   fill(u, 2);
   CHECK_MESSAGE(fuge_operator_apply(NULL, 2, f, u, message, sizeof message), FUGE_ERR_POINTER, message, "op is NULL");

@@ -10,7 +10,7 @@ enum { MOST = 8 };
 static void test_two_points(void) {
   double load[MOST], approach[MOST], rate[MOST];
   int point[MOST], state[MOST], contacts[MOST], entries = -1;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   fuge_operator *op = NULL;
   CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
   CHECK_DONE(fuge_load_path(op, TABLE1_GAP, 20.0, MOST, load, approach, rate, point, state, contacts, &entries, message,
@@ -49,12 +49,13 @@ static void test_capacity(void) {
 
 static void test_refusals(void) {
   int entries = -1;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_operator *op = NULL;
   CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
   CHECK_STATUS(fuge_load_path(NULL, TABLE1_GAP, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
                FUGE_ERR_POINTER);
-  CHECK_STATUS(fuge_load_path(op, NULL, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0), FUGE_ERR_POINTER);
+  CHECK_STATUS(fuge_load_path(op, NULL, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
+               FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 1.0, 0, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0),
                FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_load_path(op, TABLE1_GAP, 1.0, -1, NULL, NULL, NULL, NULL, NULL, NULL, &entries, NULL, 0),
@@ -104,7 +105,7 @@ static void test_follow_path(void) {
   const double finish[1] = {20.0}, back[1] = {-1.0};
   double parameter[MOST], motion[MOST], rate[MOST];
   int point[MOST], state[MOST], contacts[MOST], entries = -1;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   fuge_operator *op = NULL;
   fuge_solver *s = NULL;
   CHECK_DONE(fuge_operator_dense(2, TABLE1_ALPHA, 2, &op, NULL, 0));
@@ -150,7 +151,7 @@ static void test_follow_motions(void) {
   const double middle[2] = {2.0, 0.0}, right[2] = {2.0, 1.0}, beside[2] = {2.0, 4.0};
   double motion[2 * MOST], rate[2 * MOST];
   int entries = -1;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_operator *op = NULL;
   fuge_solver *s = new_solver(alpha, 2, NULL, &op);
   CHECK_DONE(fuge_set_gap(s, gap, NULL));

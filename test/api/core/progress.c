@@ -59,7 +59,7 @@ static void check_same(fuge_solver *solver, const double *expected) {
 }
 
 static void check_cancelled(fuge_solver *solver, int iteration) {
-  char message[256] = "", part[32];
+  char message[FUGE_MESSAGE_LENGTH + 1] = "", part[32];
   double force[N];
   fuge_info info;
   record r = {0, iteration, 0, 0, 0.0};

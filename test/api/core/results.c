@@ -123,7 +123,7 @@ static void test_proof_of_a_border(void) {
   const double gap[2] = {0.0, 0.2};
   double force_bound[2] = {-1.0, -1.0};
   int proved[2] = {-1, -1};
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_operator *op = NULL;
   fuge_solver *solver = table1_solver(NULL, &op);
   CHECK_DONE(fuge_set_gap(solver, gap, NULL));
@@ -141,7 +141,7 @@ static void test_no_proof(void) {
   const double alpha[4] = {1.0, 1.0, 1.0, 1.0}, gap[2] = {0.0, 0.0};
   double bounds[2] = {-1.0, -1.0}, force[2] = {-1.0, -1.0}, motion = -1.0;
   int proved[2] = {-1, -1};
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_operator *op = NULL;
   fuge_solver *solver = new_solver(alpha, 2, NULL, &op);
   CHECK_DONE(fuge_set_gap(solver, gap, NULL));
@@ -163,7 +163,7 @@ static void test_no_proof(void) {
 static void test_proof_too_early(void) {
   double force[2], motion = SENTINEL;
   int proved[2] = {-1, -1};
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_operator *op = NULL;
   fuge_solver *solver = table1_solver(NULL, &op);
   fill(force, 2);
@@ -212,7 +212,7 @@ static void test_part_of_history(void) {
 static void check_range(const fuge_solver *solver, int first, int count, int status) {
   double z[TABLE1_STEPS];
   int basis[TABLE1_STEPS * ROWS], available = -1;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   basis[0] = -1;
   fill(z, TABLE1_STEPS);
   CHECK_STATUS(fuge_get_history(solver, first, count, basis, z, &available), status);
@@ -263,7 +263,7 @@ static void test_history_null_pointers(void) {
 static void test_history_not_kept(void) {
   double z = SENTINEL;
   int basis[ROWS] = {-1, -1, -1}, available = -1;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_operator *op = NULL;
   fuge_solver *solver = solved_table1(0, &op);
   CHECK_DONE(fuge_get_history(solver, 0, 0, NULL, NULL, &available));
@@ -360,7 +360,7 @@ static void test_message_is_cut(void) {
 }
 
 static void test_message_null_pointers(void) {
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_operator *op = NULL;
   fuge_solver *solver = table1_solver(NULL, &op);
   CHECK_STATUS(fuge_solver_message(NULL, message, sizeof message), FUGE_ERR_POINTER);

@@ -23,7 +23,7 @@ static void check_no_answer(const fuge_solver *solver) {
 }
 
 static void check_message(const fuge_solver *solver, const char *part) {
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, part);
 }
 
@@ -107,7 +107,7 @@ static void test_bad_options(void) {
 }
 
 static void test_negative_threads(void) {
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_options options;
   fuge_operator *op = NULL;
   fuge_solver *solver = NULL;

@@ -114,15 +114,15 @@ static void press(double *force) {
 static fuge_field *layered_line(const double *young, const double *poisson, int bonded, int n, const double *force,
                                 int boundary) {
   fuge_field *field = NULL;
-  CHECK_DONE(fuge_field_layered_line_grid(1, &THICKNESS, young, poisson, bonded, n, 0.2, force, FUGE_MEAN, boundary, &field,
-                                          NULL, 0));
+  CHECK_DONE(fuge_field_layered_line_grid(1, &THICKNESS, young, poisson, bonded, n, 0.2, force, FUGE_MEAN, boundary,
+                                          &field, NULL, 0));
   return field;
 }
 
 static fuge_field *layered_area(const double *young, const double *poisson, const double *force) {
   fuge_field *field = NULL;
-  CHECK_DONE(fuge_field_layered_area_grid(1, &THICKNESS, young, poisson, 1, SIDE, SIDE, 0.2, 0.2, force, FUGE_FREE, &field,
-                                          NULL, 0));
+  CHECK_DONE(fuge_field_layered_area_grid(1, &THICKNESS, young, poisson, 1, SIDE, SIDE, 0.2, 0.2, force, FUGE_FREE,
+                                          &field, NULL, 0));
   return field;
 }
 
@@ -160,7 +160,8 @@ static void test_interface(void) {
   CHECK_NEAR(peaks[1].tension_above, v.stress[6 * middle], 1e-9);
   CHECK_NEAR(v.stress[6 * middle + 2], v.stress[6 * (middle + CELLS) + 2], 1e-9);
   CHECK(v.stress[6 * middle] > v.stress[6 * (middle + CELLS)]);
-  CHECK_NEAR(peaks[1].shear, hypot(v.stress[6 * peaks[1].cell_of_shear + 3], v.stress[6 * peaks[1].cell_of_shear + 4]), 1e-9);
+  CHECK_NEAR(peaks[1].shear, hypot(v.stress[6 * peaks[1].cell_of_shear + 3], v.stress[6 * peaks[1].cell_of_shear + 4]),
+             1e-9);
   field = layered_line(COAT, RATIO, 0, CELLS, force, FUGE_FREE);
   CHECK_DONE(fuge_field_interfaces(field, 2, &interfaces, peaks, NULL, 0));
   CHECK_INT(interfaces, 1);
@@ -182,7 +183,8 @@ static void test_layered_places(void) {
     width[k] = 0.2;
   }
   ask(layered_area(COAT, RATIO, force), CELLS, 2, INTERFACE, BELOW, &expected);
-  CHECK_DONE(fuge_field_layered_area(1, &THICKNESS, COAT, RATIO, 1, CELLS, x, y, width, width, force, 0, 0, &field, NULL, 0));
+  CHECK_DONE(fuge_field_layered_area(1, &THICKNESS, COAT, RATIO, 1, CELLS, x, y, width, width, force, 0, 0, &field,
+                                     NULL, 0));
   ask_places(field, SIDE, CELLS, 0.2, 2, INTERFACE, BELOW, &found);
   compare(&found, &expected, 2 * CELLS, 1e-10);
   ask(layered_line(COAT, RATIO, 1, SIDE, row, FUGE_FREE), SIDE, 2, INTERFACE, BELOW, &expected);
@@ -190,7 +192,8 @@ static void test_layered_places(void) {
   compare(&found, &expected, 2 * SIDE, 1e-10);
   CHECK_NEAR(found.stress[1], RATIO[0] * (found.stress[0] + found.stress[2]), 1e-14);
   CHECK_NEAR(found.stress[6 * SIDE + 1], RATIO[1] * (found.stress[6 * SIDE] + found.stress[6 * SIDE + 2]), 1e-14);
-  CHECK_DONE(fuge_field_layered_line(1, &THICKNESS, COAT, RATIO, 1, 1, x, width, row + 4, FUGE_MEAN, 1, &field, NULL, 0));
+  CHECK_DONE(fuge_field_layered_line(1, &THICKNESS, COAT, RATIO, 1, 1, x, width, row + 4, FUGE_MEAN, 1, &field, NULL,
+                                     0));
   CHECK_DONE(fuge_field_stress(field, 1, surface, NULL, stress, NULL, 0));
   CHECK_NEAR(stress[2], -row[4] / 0.2, 1e-12);
   fuge_field_free(&field);
@@ -228,8 +231,8 @@ static int grid(int nx, int ny, double spacing, const double *force, int boundar
   /* A line refuses the same. */
   if (ny != 1) return fuge_field_halfspace_grid(nx, ny, spacing, 1.0, force, boundary, young, poisson, &field, message,
                                                 sizeof message);
-  CHECK_STATUS(fuge_field_halfplane_grid(nx, spacing, force, FUGE_MEAN, boundary, young, poisson, FUGE_PLANE_STRAIN, &field,
-                                         message, sizeof message), status);
+  CHECK_STATUS(fuge_field_halfplane_grid(nx, spacing, force, FUGE_MEAN, boundary, young, poisson, FUGE_PLANE_STRAIN,
+                                         &field, message, sizeof message), status);
   return status;
 }
 
@@ -253,8 +256,8 @@ static void test_refused_grids(void) {
 static int layers(int number, const double *thickness, const double *young, double spacing, int boundary) {
   double force[CELLS];
   press(force);
-  return fuge_field_layered_area_grid(number, thickness, young, RATIO, 1, SIDE, SIDE, spacing, 0.2, force, boundary, &field,
-                                      message, sizeof message);
+  return fuge_field_layered_area_grid(number, thickness, young, RATIO, 1, SIDE, SIDE, spacing, 0.2, force, boundary,
+                                      &field, message, sizeof message);
 }
 
 static void test_refused_layers(void) {
@@ -269,9 +272,10 @@ static void test_refused_layers(void) {
 static void check_depth(int depths, const double *depth, int status, const char *part) {
   values v;
   fill(v.stress, 18);
-  CHECK_SAYS(fuge_field_grid_stress(field, depths, depth, NULL, v.stress, message, sizeof message), status, message, part);
-  CHECK_SAYS(fuge_field_grid_displacement(field, depths, depth, NULL, v.stress, message, sizeof message), status, message,
+  CHECK_SAYS(fuge_field_grid_stress(field, depths, depth, NULL, v.stress, message, sizeof message), status, message,
              part);
+  CHECK_SAYS(fuge_field_grid_displacement(field, depths, depth, NULL, v.stress, message, sizeof message), status,
+             message, part);
   CHECK_UNTOUCHED(v.stress, 18);
 }
 
@@ -292,8 +296,8 @@ static void test_refused_depths(void) {
   CHECK_SAYS(fuge_field_stress(field, 1, place, NULL, value, message, sizeof message), FUGE_ERR_UNSUPPORTED, message,
              "take grid_stress");
   CHECK_STATUS(fuge_field_largest(field, 0, &peak, NULL, 0), FUGE_ERR_UNSUPPORTED);
-  CHECK_SAYS(fuge_field_interfaces(field, 1, &interfaces, peaks, message, sizeof message), FUGE_ERR_UNSUPPORTED, message,
-             "without layers");
+  CHECK_SAYS(fuge_field_interfaces(field, 1, &interfaces, peaks, message, sizeof message), FUGE_ERR_UNSUPPORTED,
+             message, "without layers");
   fuge_field_free(&field);
   field = line(N, 1.0, FORCE, FUGE_MEAN, FUGE_PERIODIC);
   CHECK_STATUS(fuge_field_largest(field, 0, &peak, NULL, 0), FUGE_ERR_UNSUPPORTED);
@@ -305,13 +309,15 @@ static void test_refused_depths(void) {
   press(force);
   field = layered_area(rigid, RATIO, force);
   check_depth(1, DEPTH, FUGE_ERR_GRID, "depth(0) = 0.75");
-  CHECK_SAYS(fuge_field_stress(field, 1, place, NULL, value, message, sizeof message), FUGE_ERR_GRID, message, "z(0) = 1.");
+  CHECK_SAYS(fuge_field_stress(field, 1, place, NULL, value, message, sizeof message), FUGE_ERR_GRID, message,
+             "z(0) = 1.");
   CHECK_STATUS(fuge_field_largest(field, 99, &peak, NULL, 0), FUGE_ERR_OPTION);
   CHECK_STATUS(fuge_field_interfaces(field, 1, NULL, peaks, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_field_interfaces(field, 1, &interfaces, NULL, NULL, 0), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_field_interfaces(field, -1, &interfaces, peaks, NULL, 0), FUGE_ERR_SIZE);
   fuge_field_free(&field);
-  CHECK_DONE(fuge_field_layered_line(1, &THICKNESS, COAT, RATIO, 1, 1, &one, &one, &one, FUGE_MEAN, 0, &field, NULL, 0));
+  CHECK_DONE(fuge_field_layered_line(1, &THICKNESS, COAT, RATIO, 1, 1, &one, &one, &one, FUGE_MEAN, 0, &field, NULL,
+                                     0));
   CHECK_STATUS(fuge_field_largest(field, 0, &peak, NULL, 0), FUGE_ERR_UNSUPPORTED);
   CHECK_STATUS(fuge_field_interfaces(field, 1, &interfaces, peaks, NULL, 0), FUGE_ERR_UNSUPPORTED);
   CHECK_INT(interfaces, 7);

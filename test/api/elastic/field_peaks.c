@@ -7,7 +7,7 @@ static const double PI = 3.14159265358979323846;
 /* The largest stress of a field, which is freed. */
 static fuge_stress_peak largest(fuge_field *field, int measure) {
   fuge_stress_peak peak = {0};
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   CHECK_MESSAGE(fuge_field_largest(field, measure, &peak, message, sizeof message), FUGE_DONE, message, "");
   CHECK(peak.layer == -1 && peak.cell == -1);
   fuge_field_free(&field);
@@ -25,7 +25,8 @@ static void press(double *x, double *width, double *force) {
 
 static fuge_field *line(const double *x, const double *width, const double *force, int symmetric) {
   fuge_field *field = NULL;
-  CHECK_DONE(fuge_field_halfplane(N, x, width, force, FUGE_MEAN, symmetric, 1.0, 0.3, FUGE_PLANE_STRAIN, &field, NULL, 0));
+  CHECK_DONE(fuge_field_halfplane(N, x, width, force, FUGE_MEAN, symmetric, 1.0, 0.3, FUGE_PLANE_STRAIN, &field, NULL,
+                                  0));
   return field;
 }
 
@@ -122,7 +123,7 @@ static void test_rings(void) {
 /* Without forces all is 0; what is refused. */
 static void test_nothing_and_refusals(void) {
   double x[N], width[N], force[N];
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_stress_peak peak;
   press(x, width, force);
   fuge_field *field = line(x, width, force, 1);

@@ -27,9 +27,9 @@ static values ask(fuge_field *field, int points, const double *place) {
 
 static fuge_field *line(int n, const double *x, const double *force, int element, int symmetric, int plane_state) {
   fuge_field *field = NULL;
-  char message[256] = "old";
-  CHECK_MESSAGE(fuge_field_halfplane(n, x, ONES, force, element, symmetric, YOUNG, POISSON, plane_state, &field, message,
-                                     sizeof message), FUGE_DONE, message, "");
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
+  CHECK_MESSAGE(fuge_field_halfplane(n, x, ONES, force, element, symmetric, YOUNG, POISSON, plane_state, &field,
+                                     message, sizeof message), FUGE_DONE, message, "");
   return field;
 }
 
@@ -89,7 +89,8 @@ static void test_nothing(void) {
   v = ask(line(N, X, zero, FUGE_MEAN, 0, FUGE_PLANE_STRAIN), 4, PLACE);
   for (int k = 0; k < 24; k++) CHECK_NEAR(v.stress[k], 0.0, 0.0);
   for (int k = 0; k < 12; k++) CHECK_NEAR(v.u[k], 0.0, 0.0);
-  CHECK_DONE(fuge_field_halfplane(N, X, ONES, FORCE, FUGE_MEAN, 0, INFINITY, POISSON, FUGE_PLANE_STRAIN, &field, NULL, 0));
+  CHECK_DONE(fuge_field_halfplane(N, X, ONES, FORCE, FUGE_MEAN, 0, INFINITY, POISSON, FUGE_PLANE_STRAIN, &field, NULL,
+                                  0));
   v = ask(field, 4, PLACE);
   for (int k = 0; k < 12; k++) CHECK_NEAR(v.u[k], 0.0, 0.0);
   fuge_field_free(NULL);
@@ -110,7 +111,8 @@ static const double SQUARE_PLACE[9] = {0, 0, 0, 0.3, -0.2, 0.75, -7, 2, 1e-3};
 static fuge_field *squares(int n, const double *x, const double *y, const double *force, int symmetric_x,
                            int symmetric_y) {
   fuge_field *field = NULL;
-  CHECK_DONE(fuge_field_halfspace(n, x, y, ONES, ONES, force, symmetric_x, symmetric_y, YOUNG, POISSON, &field, NULL, 0));
+  CHECK_DONE(fuge_field_halfspace(n, x, y, ONES, ONES, force, symmetric_x, symmetric_y, YOUNG, POISSON, &field, NULL,
+                                  0));
   return field;
 }
 
@@ -124,7 +126,8 @@ static void test_square(void) {
 
 /* The forces of a quarter and of a half are sums over the images. */
 static void test_folded(void) {
-  const double whole[4] = {1, 1, 2, 2}, half[2] = {2, 4}, quarter = 4.0, half_x[2] = {0.5, 0.5}, half_y[2] = {0.5, -0.5};
+  const double whole[4] = {1, 1, 2, 2}, half[2] = {2, 4}, quarter = 4.0, half_x[2] = {0.5, 0.5};
+  const double half_y[2] = {0.5, -0.5};
   compare(ask(squares(2, half_x, half_y, half, 1, 0), 3, SQUARE_PLACE),
           ask(squares(4, SQUARE_X, SQUARE_Y, whole, 0, 0), 3, SQUARE_PLACE), 3, 2e-15);
   compare(ask(squares(1, SQUARE_X, SQUARE_Y, &quarter, 1, 1), 3, SQUARE_PLACE),
@@ -148,7 +151,8 @@ static void test_disc(void) {
   CHECK_VALUES(v.stress, 1e-15, -(0.75 - 1.25 * 0.6 + 0.5 * 0.216) / PI, v.stress[0], -(1.0 - 0.216) / PI, 0, 0, 0);
   CHECK_VALUES(v.stress + 6, 1e-15, -0.75 / PI, v.stress[6], -1.0 / PI, 0.0, 0.0, 0.0);
   CHECK_VALUES(v.stress + 12, 1e-16, radial, -radial, 0.0, 0.0, 0.0, 0.0);
-  CHECK_DONE(fuge_ring_displacement(2, RADIUS, RING_FORCE, YOUNG / (1.0 - POISSON * POISSON), 4, radius, surface, NULL, 0));
+  CHECK_DONE(fuge_ring_displacement(2, RADIUS, RING_FORCE, YOUNG / (1.0 - POISSON * POISSON), 4, radius, surface, NULL,
+                                    0));
   for (int k = 1; k < 4; k++) CHECK_NEAR(v.u[3 * k + 2], surface[k], 2e-15);
   CHECK_NEAR(v.u[0], 0.0, 0.0);
   CHECK_VALUES(v.u + 6, 1e-16, -0.5 * 1.25 / (2.0 * PI * YOUNG) * 4.0 / 4.0, 0.0);
@@ -239,7 +243,8 @@ static char message[FUGE_MESSAGE_LENGTH + 1];
 
 static int plane(int n, const double *x, const double *width, const double *force, int element, double young,
                  double poisson, int plane_state) {
-  return fuge_field_halfplane(n, x, width, force, element, 0, young, poisson, plane_state, &field, message, sizeof message);
+  return fuge_field_halfplane(n, x, width, force, element, 0, young, poisson, plane_state, &field, message,
+                              sizeof message);
 }
 
 static void test_refused_cells(void) {
@@ -260,8 +265,8 @@ static void test_refused_cells(void) {
 }
 
 static int area(int n, const double *width_y, const double *force, int symmetric_x, double young, double poisson) {
-  return fuge_field_halfspace(n, SQUARE_X, SQUARE_Y, ONES, width_y, force, symmetric_x, 0, young, poisson, &field, message,
-                              sizeof message);
+  return fuge_field_halfspace(n, SQUARE_X, SQUARE_Y, ONES, width_y, force, symmetric_x, 0, young, poisson, &field,
+                              message, sizeof message);
 }
 
 static void test_refused_rectangles_and_rings(void) {
@@ -273,7 +278,8 @@ static void test_refused_rectangles_and_rings(void) {
   CHECK_REFUSED(area(4, ONES, ONES, 1, 1.0, 0.3), FUGE_ERR_WIDTH, "x(1) = -0.5");
   CHECK_REFUSED(area(4, ONES, ONES, 0, 0.0, 0.3), FUGE_ERR_MODULUS, "young = 0.");
   CHECK_REFUSED(area(4, ONES, ONES, 0, 1.0, 0.6), FUGE_ERR_MODULUS, "poisson = 0.6");
-  CHECK_REFUSED(fuge_field_rings(0, RADIUS, RING_FORCE, 1.0, 0.3, &field, message, sizeof message), FUGE_ERR_SIZE, "n = 0");
+  CHECK_REFUSED(fuge_field_rings(0, RADIUS, RING_FORCE, 1.0, 0.3, &field, message, sizeof message), FUGE_ERR_SIZE,
+                "n = 0");
   CHECK_REFUSED(fuge_field_rings(2, NULL, RING_FORCE, 1.0, 0.3, &field, message, sizeof message), FUGE_ERR_POINTER,
                 "radius is NULL");
   CHECK_REFUSED(fuge_field_rings(2, RADIUS, NULL, 1.0, 0.3, &field, message, sizeof message), FUGE_ERR_POINTER,
@@ -290,12 +296,14 @@ static void test_refused_punches(void) {
   field = kept = rings();
   CHECK_REFUSED(fuge_field_punch(NULL, 1.0, 0.3, FUGE_PLANE_STRAIN, &field, message, sizeof message), FUGE_ERR_POINTER,
                 "contact is NULL");
-  CHECK_REFUSED(fuge_field_punch(cylinder, 1.0, 0.6, FUGE_PLANE_STRAIN, &field, message, sizeof message), FUGE_ERR_MODULUS,
-                "poisson = 0.6");
+  CHECK_REFUSED(fuge_field_punch(cylinder, 1.0, 0.6, FUGE_PLANE_STRAIN, &field, message, sizeof message),
+                FUGE_ERR_MODULUS, "poisson = 0.6");
   CHECK_REFUSED(fuge_field_punch(cylinder, 1.0, 0.3, 7, &field, message, sizeof message), FUGE_ERR_OPTION,
                 "plane_state = 7");
-  CHECK_REFUSED(fuge_field_punch(sphere, 1.0, 0.6, 0, &field, message, sizeof message), FUGE_ERR_MODULUS, "poisson = 0.6");
-  CHECK_REFUSED(fuge_field_punch(sphere, -1.0, 0.3, 0, &field, message, sizeof message), FUGE_ERR_MODULUS, "young = -1.");
+  CHECK_REFUSED(fuge_field_punch(sphere, 1.0, 0.6, 0, &field, message, sizeof message), FUGE_ERR_MODULUS,
+                "poisson = 0.6");
+  CHECK_REFUSED(fuge_field_punch(sphere, -1.0, 0.3, 0, &field, message, sizeof message), FUGE_ERR_MODULUS,
+                "young = -1.");
   fuge_field_free(&field);
   fuge_punch_free(&cylinder);
   fuge_punch_free(&sphere);
@@ -305,7 +313,8 @@ static void check_place(const fuge_field *asked, int points, const double *place
   double result[18];
   fill(result, 18);
   CHECK_SAYS(fuge_field_stress(asked, points, place, NULL, result, message, sizeof message), status, message, part);
-  CHECK_SAYS(fuge_field_displacement(asked, points, place, NULL, result, message, sizeof message), status, message, part);
+  CHECK_SAYS(fuge_field_displacement(asked, points, place, NULL, result, message, sizeof message), status, message,
+             part);
   CHECK_UNTOUCHED(result, 18);
 }
 
@@ -313,7 +322,8 @@ static void check_place(const fuge_field *asked, int points, const double *place
 static void test_refused_places(void) {
   const double above[6] = {0, 0, 1, 1, 0, -0.5}, nowhere[6] = {0, 0, 1, 1, 0, NAN}, left[6] = {0, 0, 1, -1, 0, 1};
   fuge_punch_report report;
-  fuge_field *all[] = {line(N, X, FORCE, FUGE_MEAN, 0, FUGE_PLANE_STRAIN), line(N, X, FORCE, FUGE_HAT, 1, FUGE_PLANE_STRESS),
+  fuge_field *all[] = {line(N, X, FORCE, FUGE_MEAN, 0, FUGE_PLANE_STRAIN),
+                       line(N, X, FORCE, FUGE_HAT, 1, FUGE_PLANE_STRESS),
                        squares(4, SQUARE_X, SQUARE_Y, ONES, 0, 0), smooth(0.7, FUGE_PLANE_STRAIN, &report), rings(),
                        round_field(2.0, 1.0, POISSON)};
   check_place(NULL, 2, left, FUGE_ERR_POINTER, "field is NULL");

@@ -3,7 +3,7 @@
 
 static void test_moduli(void) {
   double strain = 0.0, stress = 0.0, e_star = 0.0, share1 = 0.0, share2 = 0.0;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   CHECK_DONE(fuge_plane_modulus(210.0, 0.25, FUGE_PLANE_STRAIN, &strain, message, sizeof message));
   CHECK_STRING(message, "");
   CHECK_NEAR(strain, 224.0, 1e-13);
@@ -27,7 +27,7 @@ static void test_rigid_body(void) {
 
 static void test_refusals(void) {
   double out[2];
-  char message[256] = "", small[8];
+  char message[FUGE_MESSAGE_LENGTH + 1] = "", small[8];
   fill(out, 2);
   CHECK_STATUS(fuge_plane_modulus(0.0, 0.3, FUGE_PLANE_STRAIN, out, message, sizeof message), FUGE_ERR_MODULUS);
   CHECK_CONTAINS(message, "young = 0.0");

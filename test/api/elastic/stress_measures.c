@@ -8,7 +8,7 @@ static const double TENSOR[6 * POINTS] = {0, 0, 3, 0, 0, 0, -1, -1, -1, 0, 2, 0}
 
 static void test_scalars(void) {
   double value[POINTS + 1];
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   fill(value, POINTS + 1);
   CHECK_MESSAGE(fuge_von_mises(POINTS, TENSOR, value, message, sizeof message), FUGE_DONE, message, "");
   CHECK_VALUES(value, 1e-15, 3.0, 2.0 * sqrt(3.0));
@@ -33,7 +33,7 @@ static void test_principal_stresses(void) {
 
 static void test_refusals(void) {
   double value[6];
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fill(value, 6);
   CHECK_STATUS(fuge_von_mises(-1, TENSOR, value, NULL, 0), FUGE_ERR_SIZE);
   CHECK_SAYS(fuge_tresca(1, NULL, value, message, sizeof message), FUGE_ERR_POINTER, message, "tensor is NULL");

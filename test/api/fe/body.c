@@ -32,7 +32,7 @@ static const double OUTWARD[2] = {1.0, 1.0};
 static void check_chain(fuge_body *body) {
   double alpha[6], b[2], u[N], load[N] = {0, 0, 0, 0, 4};
   const double force[2] = {2.0, 0.0}, bad[2] = {2.0, NAN};
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   int m = -1;
 
   CHECK_DONE(fuge_body_set_contact(body, 2, 1, TOUCH, OUTWARD));
@@ -84,7 +84,7 @@ static void test_columns(columns_function create) {
   const int column[N + 1] = {0, 1, 3, 5, 7, 9}, row[9] = {0, 0, 1, 2, 1, 3, 2, 3, 4};
   double value[9] = {4, -2, 4, 4, -2, 4, -2, -2, 2};
   int bad[9];
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   fuge_body *body = NULL;
 
   CHECK_DONE(create(N, column, row, value, &body, NULL, 0));
@@ -193,7 +193,7 @@ static void test_supports(void) {
   double k[N * N], b[1], alpha[1];
   const int ends[2] = {0, N - 1}, middle = 2, bad[2] = {0, N}, far = INT_MAX;
   const double pulled[2] = {-4.0, 8.0}, one = 1.0;
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   fuge_body *body = NULL;
 
   chain_dense(0, k);

@@ -106,7 +106,8 @@ static void free_model(model *m) {
 }
 
 /* The faces of the upper block, body 1, against those of the lower one. */
-static void set_surfaces(const model *m, const block *lower, const block *upper, const int *contact, const int *opposite) {
+static void set_surfaces(const model *m, const block *lower, const block *upper, const int *contact,
+                         const int *opposite) {
   CHECK_DONE(fuge_pairs_set_contact(m->pairs, 2, upper->nodes, upper->x, 2, upper->elements, contact, upper->dof));
   CHECK_DONE(fuge_pairs_set_opposite(m->pairs, 2, lower->nodes, lower->x, 2, lower->elements, opposite, lower->dof));
 }
@@ -289,7 +290,7 @@ static void test_refusals(void) {
   const int broken[2] = {0, 20};
   const double displacement[2] = {0.0, 0.0};
   double u[DEGREES] = {SENTINEL};
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   fuge_body *body = NULL;
   fuge_info info;
 

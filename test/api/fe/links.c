@@ -113,7 +113,7 @@ static void test_displaced_supports(void) {
   const double loads[6] = {0.0}, supports[4] = {0.25, 0.0, -0.5, 0.125}, along = 1.0;
   const int fixed[2] = {1, 2}, spring = 0, first = 1, second = 2;
   double b[4], force[4], u[6];
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   struct structure s = {NULL, NULL, NULL, NULL};
   CHECK_DONE(fuge_body_dense(3, bars, 3, &s.body, NULL, 0));
   CHECK_DONE(fuge_body_fix(s.body, 2, fixed, NULL));

@@ -87,7 +87,7 @@ static void test_geometry(void) {
   const double crease[3] = {29.0, 60.0, 91.0};
   double gap[2][3];
   fuge_pairs *pairs = NULL;
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
 
   for (int k = 0; k < 3; k++) {
     CHECK_DONE(fuge_pairs_create(&pairs, NULL, 0));
@@ -110,7 +110,7 @@ static void test_geometry(void) {
 
 static void test_bad_calls(void) {
   fuge_pairs *pairs = NULL;
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   const int turned[2] = {1, 0}, far[2] = {0, 7};
   int n = -7;
 

@@ -21,7 +21,7 @@ static void test_volume(void) {
   const double spacing[2] = {0.5, 2.0}, origin[2] = {10.0, 20.0};
   const char *const names[1] = {"zz"};
   const double *const results[1] = {stress};
-  char message[256] = "", *bytes, *values;
+  char message[FUGE_MESSAGE_LENGTH + 1] = "", *bytes, *values;
   size_t length;
   double back[6];
   CHECK_DONE(fuge_write_volume(NAME, 2, 1, spacing, origin, 3, depth, 1, names, results, message, sizeof message));
@@ -55,7 +55,7 @@ static void test_fields(void) {
   const char *const names[2] = {"height", "p & q"}, *const same[2] = {"a", "a"}, *const none[2] = {"a", NULL};
   const double *const results[2] = {height, pressure}, *const infinite[2] = {height, bad};
   const double *const no_result[2] = {height, NULL};
-  char message[256] = "", *bytes, *values;
+  char message[FUGE_MESSAGE_LENGTH + 1] = "", *bytes, *values;
   size_t length;
   double back[2];
   CHECK_DONE(fuge_write_results(NAME, 2, 1, spacing, origin, 2, names, results, message, sizeof message));
@@ -97,7 +97,7 @@ static void test_full_disk(void) {
   const char *const name = "p";
   const double *const result = values;
   const double spacing[2] = {1.0, 1.0};
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   FILE *full = fopen("/dev/full", "wb");
   if (full == NULL) return;
   fclose(full);

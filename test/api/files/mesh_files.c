@@ -41,7 +41,7 @@ static void test_write(void) {
   fuge_mesh *mesh = NULL, *joined = NULL, *none = NULL;
   const fuge_mesh *both[2];
   static char content[4000];
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   size_t bytes;
   for (int k = 0; k < 20; k++) u[k] = k + 0.25;
   CHECK_DONE(fuge_mesh_create(2, 5, position, 4, 2, element, 2, types, &mesh, message, sizeof message));
@@ -108,7 +108,7 @@ static void test_full_disk(void) {
   static double position[2 * LARGE];
   const int element[3] = {0, 1, 2};
   const char *const type = "CPE3";
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   FILE *full = fopen("/dev/full", "wb");
   if (full == NULL) return;
   fclose(full);

@@ -21,7 +21,7 @@ static void press(double *x, double *width, double *force) {
 static void test_cylinder(void) {
   double x[N], width[N], force[N], left[MOST], right[MOST], left_error[MOST], right_error[MOST];
   int left_kind[MOST] = {-1, -1, -1}, right_kind[MOST] = {-1, -1, -1}, count = -1;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   press(x, width, force);
   fill(left, MOST);
   fill(right, MOST);
@@ -114,7 +114,7 @@ static void test_laws(void) {
   static const int state[10] = {0, 1, 2, 2, 2, 1, 1, 1, 1, 1};
   double compliance[11], cells[11], places[11], left, right, right_error;
   int left_kind = -1, right_kind = -1, count = -1;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   for (int k = 0; k < 11; k++) {
     compliance[k] = 7.0;
     cells[k] = 1.0;
@@ -145,7 +145,7 @@ static void test_refusals(void) {
   static const double x[2] = {0.5, 1.5}, uneven[2] = {0.5, 1.75}, width[2] = {1, 1}, force[2] = {1, NAN};
   double left;
   int count = -7;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fill(&left, 1);
   CHECK_STATUS(left_edges(0, x, width, width, 0, 1, &left, &count, NULL, 0), FUGE_ERR_SIZE);
   CHECK_STATUS(left_edges(2, x, width, width, 0, -1, &left, &count, NULL, 0), FUGE_ERR_SIZE);

@@ -138,7 +138,7 @@ static const bad_input BAD_INPUT[] = {
 /* The message says what and where. */
 static void check_bad_input(const bad_input *bad, int folded) {
   double x[N], width[N], alpha[N * N];
-  char message[256] = "not written";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "not written";
   memcpy(x, X, sizeof x);
   memcpy(width, EQUAL, sizeof width);
   x[bad->at] = bad->x;
@@ -160,7 +160,7 @@ static void test_bad_input(void) {
 static void test_leading_dimension(void) {
   for (int folded = 0; folded < 2; folded++) {
     double alpha[N * N];
-    char message[256] = "";
+    char message[FUGE_MESSAGE_LENGTH + 1] = "";
     fill(alpha, N * N);
     CHECK_SAYS(fuge_halfplane_matrix(N, X, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N - 1, message, sizeof message),
                FUGE_ERR_SIZE, message, "lda = 4");
@@ -172,7 +172,7 @@ static void test_leading_dimension(void) {
 static void test_null_pointers(void) {
   for (int folded = 0; folded < 2; folded++) {
     double alpha[N * N];
-    char message[256] = "";
+    char message[FUGE_MESSAGE_LENGTH + 1] = "";
     fill(alpha, N * N);
     CHECK_MESSAGE(fuge_halfplane_matrix(N, NULL, EQUAL, E_STAR, FUGE_MEAN, folded, alpha, N, message, sizeof message),
                   FUGE_ERR_POINTER, message, "x is NULL");
@@ -214,7 +214,7 @@ static void test_graded_cells(void) {
 
 static void check_bad_cells(int n, int kind, int beyond, double right, double *x, double *width, int status,
                             const char *part) {
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   CHECK_SAYS(fuge_graded_cells(1.0, right, FUGE_END_EDGE, kind, 0, beyond, n, x, width, message, sizeof message),
              status, message, part);
 }

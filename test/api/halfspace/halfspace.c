@@ -28,7 +28,7 @@ static void test_one_square(void) {
 /* Symmetric, the nearer the larger; rows beyond n are padding. */
 static void test_four_squares(int element) {
   double alpha[LDA * N];
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   fill(alpha, LDA * N);
   CHECK_MESSAGE(matrix(N, X, element, alpha, LDA, message, sizeof message), FUGE_DONE, message, "");
   for (int k = 0; k < N; k++) {
@@ -66,7 +66,7 @@ static void test_folded(void) {
 static void test_refusals(void) {
   static const double zero[N] = {1, 1, 0, 1}, nan[N] = {0, 1, 2, NAN};
   double alpha[N * N];
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   fill(alpha, N * N);
   CHECK_STATUS(matrix(0, X, FUGE_MEAN, alpha, N, message, sizeof message), FUGE_ERR_SIZE);
   CHECK_STATUS(matrix(N, X, FUGE_MEAN, alpha, N - 1, message, sizeof message), FUGE_ERR_SIZE);
@@ -100,7 +100,7 @@ enum { NX = 9, NY = 7, CELLS = NX * NY };
 static void test_grid(int element) {
   static double alpha[CELLS * CELLS];
   double x[CELLS], y[CELLS], width_x[CELLS], width_y[CELLS], gap[CELLS], force[CELLS], right[CELLS];
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   fuge_operator *op = NULL, *dense = NULL;
   fuge_solver *solver;
   for (int k = 0; k < CELLS; k++) {
@@ -208,7 +208,7 @@ static const bad_grid BAD_GRIDS[] = {
 
 /* *op stays as it was, the message says what is wrong. */
 static void test_grid_refusals(void) {
-  char place, message[256];
+  char place, message[FUGE_MESSAGE_LENGTH + 1];
   fuge_operator *const before = (fuge_operator *)(void *)&place;
   for (size_t k = 0; k < sizeof BAD_GRIDS / sizeof BAD_GRIDS[0]; k++) {
     const bad_grid *bad = &BAD_GRIDS[k];
@@ -228,7 +228,7 @@ static void test_grid_problems(void) {
   double gap[CELLS], bad[CELLS], force[CELLS], again[CELLS], derivative[CELLS], approach, load, sum = 0.0;
   fuge_operator *op = NULL;
   fuge_solver *solver;
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   for (int k = 0; k < CELLS; k++) {
     const int i = k % NX, j = k / NX;
     gap[k] = 0.05 * ((i - 3) * (i - 3) + (j - 4) * (j - 4));

@@ -7,7 +7,7 @@ static const double THICKNESS = 0.5, YOUNG[2] = {10.0, 1.0}, POISSON[2] = {0.3, 
 static void test_modulus(void) {
   const double radius[4] = {1e-11, 0.1, 1.0, 1e11};
   double modulus[5];
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   fill(modulus, 5);
   CHECK_MESSAGE(fuge_layered_modulus(1, &THICKNESS, YOUNG, POISSON, 1, HUGE_VAL, 4, radius, modulus, message,
                                      sizeof message), FUGE_DONE, message, "");
@@ -26,7 +26,7 @@ static void test_modulus(void) {
 static void test_limits(void) {
   const double alike[2] = {1.0, 1.0}, same[2] = {0.3, 0.3}, rigid[2] = {1.0, HUGE_VAL}, radius = 2.0, share = 0.01;
   double thin, thick, modulus;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   CHECK_MESSAGE(fuge_coating_limits(YOUNG, POISSON, radius, share, &thin, &thick, message, sizeof message), FUGE_DONE,
                 message, "");
   CHECK(thin > 0.0 && thin < thick);
@@ -48,7 +48,7 @@ static void check_limits_refused(int status, const char *part, const double *you
                                  double radius,
                                  double share) {
   double limits[2];
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   fill(limits, 2);
   CHECK_SAYS(fuge_coating_limits(young, poisson, radius, share, limits, limits + 1, message, sizeof message), status,
              message, part);
@@ -58,7 +58,7 @@ static void check_limits_refused(int status, const char *part, const double *you
 static void test_refusals(void) {
   const double radius[2] = {1.0, -1.0}, not_finite[2] = {NAN, 1.0}, rigid[2] = {HUGE_VAL, 1.0};
   double modulus[2];
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   fill(modulus, 2);
   CHECK_SAYS(fuge_layered_modulus(1, &THICKNESS, YOUNG, POISSON, 1, 1.0, 2, radius, modulus, message, sizeof message),
              FUGE_ERR_WIDTH, message, "radius(1) = -1.");

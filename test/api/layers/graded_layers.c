@@ -29,7 +29,7 @@ static int divide(int points, const double *depth, const double *young, const do
 static void test_layers(void) {
   static result found;
   double depth = 0.0;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   clear(&found);
   CHECK_MESSAGE(divide(POINTS, DEPTH, YOUNG, POISSON, 1e-3, MOST, &found, message, sizeof message), FUGE_DONE, message,
                 "");
@@ -86,7 +86,7 @@ static void test_constant(void) {
 static void check_refused(int status, const char *part, int points, const double *depth, const double *young,
                           const double *poisson, double tolerance, int most) {
   static result found;
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   clear(&found);
   CHECK_SAYS(divide(points, depth, young, poisson, tolerance, most, &found, message, sizeof message), status, message,
              part);
@@ -102,7 +102,7 @@ static void test_refusals(void) {
   static result found;
   const double above[POINTS] = {0.0, -1.0}, below[POINTS] = {0.5, 1.0}, nan[POINTS] = {0.0, NAN};
   const double soft[POINTS] = {1.0, 0.0}, rigid[POINTS] = {1.0, HUGE_VAL}, swelling[POINTS] = {0.3, 0.7};
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   check_refused(FUGE_ERR_SIZE, "points = 0", 0, DEPTH, YOUNG, POISSON, 1e-3, MOST);
   check_refused(FUGE_ERR_SIZE, "max_layers = -1", POINTS, DEPTH, YOUNG, POISSON, 1e-3, -1);
   check_refused(FUGE_ERR_POINTER, "depth is NULL", POINTS, NULL, YOUNG, POISSON, 1e-3, MOST);

@@ -41,7 +41,7 @@ static int matrix(int kind, const body *of, int n, double *alpha, int lda, char 
 static void test_no_layers(void) {
   for (int kind = 0; kind < MATRICES; kind++) {
     double alpha[LDA * N], right[LDA * N];
-    char message[256] = "old";
+    char message[FUGE_MESSAGE_LENGTH + 1] = "old";
     fill(alpha, LDA * N);
     CHECK_MESSAGE(matrix(kind, &ALIKE, N, alpha, LDA, message, sizeof message), FUGE_DONE, message, "");
     if (kind == HALFPLANE)
@@ -80,7 +80,7 @@ enum { NX = 6, NY = 5, CELLS = NX * NY };
 static void test_products(void) {
   static double alpha[CELLS * CELLS];
   double x[CELLS], y[CELLS], width_x[CELLS], width_y[CELLS], f[CELLS], u[CELLS], right;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   for (int k = 0; k < CELLS; k++) {
     x[k] = 0.5 * (k % NX);
     y[k] = 0.25 * (k / NX);
@@ -143,7 +143,7 @@ static void test_periodic(void) {
 static void test_waves(void) {
   const double q[3] = {1e-9, 2.0, 1e9}, young[2] = {1.0, 5.0}, poisson[2] = {0.3, 0.25}, h = 0.5;
   double compliance[4];
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   fill(compliance, 4);
   CHECK_MESSAGE(fuge_layered_waves(1, &h, young, poisson, 1, HUGE_VAL, 3, q, compliance, message, sizeof message),
                 FUGE_DONE, message, "");
@@ -189,7 +189,7 @@ static const bad_body BAD_BODIES[] = {
 
 /* What makes no layers is refused by all functions, which leave their results alone. */
 static void test_bad_bodies(void) {
-  char place, message[256];
+  char place, message[FUGE_MESSAGE_LENGTH + 1];
   fuge_operator *const before = (fuge_operator *)(void *)&place;
   const double q = 1.0;
   double values[N * N];
@@ -219,7 +219,7 @@ static void test_refusals(void) {
   const double overlapping[2] = {0.0, 0.5}, bad_q[2] = {1.0, -1.0}, not_finite[2] = {HUGE_VAL, 1.0};
   const double radius[3] = {0.0, 1.0, 0.5};
   double values[N * N];
-  char place, message[256];
+  char place, message[FUGE_MESSAGE_LENGTH + 1];
   fuge_operator *const before = (fuge_operator *)(void *)&place, *op = before;
   fill(values, N * N);
   for (int kind = 0; kind < MATRICES; kind++) {

@@ -4,7 +4,7 @@
 static void test_sphere(void) {
   const double radius = 10.0, e_star = 1.1e5, load = 40.0, a = cbrt(0.75 * load * radius / e_star);
   double axis_x, axis_y, approach, peak;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   CHECK_MESSAGE(fuge_hertz_ellipse(radius, radius, e_star, load, &axis_x, &axis_y, &approach, &peak, message,
                                    sizeof message), FUGE_DONE, message, "");
   CHECK_NEAR(axis_x, a, 1e-14 * a);
@@ -26,7 +26,7 @@ static void test_ellipse(void) {
 
 static void check_refused(double radius_y, double e_star, double load, int status, const char *part) {
   double values[4];
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   fill(values, 4);
   CHECK_SAYS(fuge_hertz_ellipse(1.0, radius_y, e_star, load, values, values + 1, values + 2, values + 3, message,
                                 sizeof message), status, message, part);

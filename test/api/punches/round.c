@@ -30,7 +30,7 @@ static void test_sphere(void) {
   const double a = 0.6, load = 4.0 * 3.0 * 0.216 / 6.0;
   fuge_punch *contact = NULL;
   fuge_punch_report report;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   double r[3] = {0.0, 0.3, 1.2}, gap[3], pressure[3], coefficients[3];
   CHECK_MESSAGE(fuge_solve_round_punch(paraboloid, &factor, 3.0, 3.0, &load, NULL, NULL, &contact, message,
                                        sizeof message), FUGE_DONE, message, "");
@@ -110,7 +110,7 @@ static void test_refusals(void) {
   double factor = 1.0;
   const double load = 0.01, negative = -1.0, half = 0.5;
   fuge_punch *contact = NULL;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   CHECK_SAYS(fuge_solve_round_punch(dimpled, NULL, 2.0, 1.0, &load, NULL, NULL, &contact, message, sizeof message),
              FUGE_ERR_UNSUPPORTED, message, "fuge_ring_matrix");
   CHECK_SAYS(fuge_solve_round_punch(paraboloid, &factor, 20.0, 1.0, &load, NULL, NULL, &contact, message,

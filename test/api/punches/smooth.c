@@ -38,7 +38,7 @@ static void test_cylinder(void) {
   punch p = {2.0, 0, 0, 0, 1};
   fuge_punch *contact = NULL;
   fuge_punch_report report;
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   const double a = sqrt(4.0 * 0.7 / (2.0 * PI * 3.0));
   double x[3], gap[3], pressure[3], coefficients[3];
   CHECK_MESSAGE(fuge_solve_smooth_punch(parabola, &p, -2.0, 3.0, 3.0, 0.7, NULL, &contact, message, sizeof message),
@@ -113,7 +113,7 @@ static void test_refusals(void) {
   punch p = {2.0, 0, 0, 0, 0};
   fuge_punch *contact = NULL;
   fuge_punch_report report;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   const double x = 0.0;
   double value = SENTINEL;
   CHECK_SAYS(fuge_solve_smooth_punch(two_wells, NULL, -2.0, 2.0, 1.0, 0.01, NULL, &contact, message, sizeof message),

@@ -12,7 +12,7 @@ static int matrix(const double *radius, int element, double *alpha, char *messag
 /* A disc of radius 1 displaces itself by 16/(3 pi) f/(pi e_star) in the mean. */
 static void test_matrix(void) {
   double alpha[LDA * N];
-  char message[256] = "old";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "old";
   fill(alpha, LDA * N);
   CHECK_MESSAGE(matrix(RADIUS, FUGE_MEAN, alpha, message, sizeof message), FUGE_DONE, message, "");
   CHECK_NEAR(alpha[0], 16.0 / (3.0 * PI * PI * E_STAR), 1e-16);
@@ -51,7 +51,7 @@ static void test_sphere(void) {
 static void test_refusals(void) {
   double alpha[LDA * N], u = SENTINEL;
   const double wrong[N + 1] = {0.0, 2.0, 1.5, 4.0}, force[N] = {1.0, 1.0, 1.0}, place = -1.0;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fill(alpha, LDA * N);
   CHECK_SAYS(matrix(wrong, FUGE_MEAN, alpha, message, sizeof message), FUGE_ERR_WIDTH, message, "radius(2)");
   CHECK_STATUS(matrix(RADIUS, FUGE_CENTRE, alpha, message, sizeof message), FUGE_ERR_GRID);

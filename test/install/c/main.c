@@ -6,7 +6,7 @@
 int main(void) {
   const double alpha[4] = {0.2, 0.1, 0.1, 0.2}, gap[2] = {0.0, 1.0};
   double force[2], gap_out[2], approach;
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   int status = fuge_solve_dense(2, alpha, 2, gap, 2.0, force, gap_out, &approach, message, sizeof message);
   if (status != FUGE_DONE || strcmp(fuge_version(), FUGE_VERSION) != 0) {
     fprintf(stderr, "version %s, %s\n", fuge_version(), message);

@@ -8,7 +8,7 @@ int main() {
   const std::vector<double> alpha = {0.2, 0.1, 0.1, 0.2}, gap = {0.0, 1.0};
   std::vector<double> force(2), gap_out(2);
   double approach;
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   const int status = fuge_solve_dense(2, alpha.data(), 2, gap.data(), 2.0, force.data(), gap_out.data(), &approach,
                                       message, sizeof message);
   if (status != FUGE_DONE || std::string(fuge_version()) != FUGE_VERSION) {

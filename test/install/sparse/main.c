@@ -6,7 +6,7 @@ int main(void) {
   const int column[3] = {0, 2, 3}, row[3] = {0, 1, 1}, dof[2] = {0, 1};
   const double value[3] = {20.0 / 3, -10.0 / 3, 20.0 / 3}, normal[2] = {1.0, 1.0}, gap[2] = {0.0, 1.0};
   double alpha[4], force[2], gap_out[2], approach;
-  char message[256] = "";
+  char message[FUGE_MESSAGE_LENGTH + 1] = "";
   fuge_body *body = NULL;
   int status = fuge_body_sparse(2, column, row, value, &body, message, sizeof message);
   if (status == FUGE_DONE) status = fuge_body_set_contact(body, 2, 1, dof, normal);

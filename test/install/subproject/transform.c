@@ -6,7 +6,7 @@ int main(void) {
   enum { N = 3 };
   const double gap[N] = {0.0, 0.0, 0.0};
   double force[N];
-  char message[256];
+  char message[FUGE_MESSAGE_LENGTH + 1];
   fuge_operator *op = NULL;
   fuge_solver *solver = NULL;
   int status = fuge_operator_halfplane(N, 1.0, 1.0, FUGE_MEAN, FUGE_FREE, &op, message, sizeof message);

@@ -130,8 +130,8 @@ contains
   !> stress, and `peak%location` is FUGE_PEAK_SINGULAR. Otherwise the relative error is below 1e-6, and below 1e-3 where
   !> the stress has a cusp, as at the surface beside the rim of a contact. Uniform pressure jumps from cell to cell, so
   !> that on cells depths count from a quarter of a cell on; in layers it is the largest below the centres of the cells
-  !> of a grid. Of symmetric models it is that at x >= 0, y >= 0. Cells tell singular edges by the forces of up to seven at
-  !> an edge, on rectangles in three rows side by side; edges of very small pieces of contact are not judged. Errors,
+  !> of a grid. Of symmetric models it is that at x >= 0, y >= 0. Cells tell singular edges by the forces of up to seven
+  !> at an edge, on rectangles in three rows side by side; edges of very small pieces of contact are not judged. Errors,
   !> `peak` untouched: those of `stress`, FUGE_ERR_OPTION for `measure`, FUGE_ERR_OVERFLOW if no stress is finite.
   subroutine largest(self, measure, peak, info)
     class(fuge_field), intent(in) :: self

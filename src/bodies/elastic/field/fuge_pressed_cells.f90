@@ -124,8 +124,8 @@ contains
     self%surface = list(:, :number)
   end subroutine find_surface
 
-  !> Does a place beside cell `k` lie in another one, or too close to it? Those that follow it in the list, or go before,
-  !> are mostly its neighbours.
+  !> Does a place beside cell `k` lie in another one, or too close to it? Those that follow it in the list, or go
+  !> before, are mostly its neighbours.
   pure function is_pressed(cells, k, place) result(pressed)
     class(pressed_cells), intent(in) :: cells
     integer, intent(in) :: k

@@ -28,10 +28,10 @@ contains
 
   !> Cells on a half-plane.
   !>
-  !> `x`, `width`, `element` and `symmetric` (default .false.) as for `fuge_halfplane_matrix`; `force` (cells), force per
-  !> unit depth, of a solution; `young`, `poisson`, `plane_state` of the body as for `fuge_plane_modulus`. Errors, the
-  !> field unchanged: those of these two; FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY. Ten
-  !> arguments: the cells and the body.
+  !> `x`, `width`, `element` and `symmetric` (default .false.) as for `fuge_halfplane_matrix`; `force` (cells), force
+  !> per unit depth, of a solution; `young`, `poisson`, `plane_state` of the body as for `fuge_plane_modulus`. Errors,
+  !> the field unchanged: those of these two; FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.
+  !> Ten arguments: the cells and the body.
   subroutine set_cells(self, x, width, force, element, young, poisson, plane_state, info, symmetric)
     use fuge_halfplane_interior, only: fuge_halfplane_displacement
     class(fuge_halfplane_field), intent(inout) :: self
@@ -138,8 +138,8 @@ contains
     allocate (component(3, self%cells, size(below)), stat=stat)
     call require_memory(stat, 'stresses at', size(below), 'depths', info)
     if (stat /= 0) return
-    call fuge_halfplane_stress_grid(self%loads%cell_width(), self%loads%force, self%loads%element, self%loads%boundary, &
-                                    depth, component, info)
+    call fuge_halfplane_stress_grid(self%loads%cell_width(), self%loads%force, self%loads%element, &
+                                    self%loads%boundary, depth, component, info)
     do k = 1, size(depth)
       if (.not. info%failed()) call fuge_halfplane_tensor(component(:, :, k), self%plane_state, self%poisson, &
                                                           values(:, :, k), info)

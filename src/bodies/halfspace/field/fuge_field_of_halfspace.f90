@@ -49,8 +49,8 @@ contains
 
   !> `nx` x `ny` equal cells side by side, the first one at x = y = 0.
   !>
-  !> `spacing_x`, `spacing_y` > 0, length; `force` (nx*ny) of a solution; `boundary` as of `fuge_halfspace_operator`; the
-  !> body as of `set_rectangles`. Errors as there, FUGE_ERR_OPTION for `boundary`, FUGE_ERR_UNSUPPORTED in a library
+  !> `spacing_x`, `spacing_y` > 0, length; `force` (nx*ny) of a solution; `boundary` as of `fuge_halfspace_operator`;
+  !> the body as of `set_rectangles`. Errors as there, FUGE_ERR_OPTION for `boundary`, FUGE_ERR_UNSUPPORTED in a library
   !> without FFTW. Ten arguments: the grid and the body.
   subroutine set_grid(self, nx, ny, spacing_x, spacing_y, force, boundary, young, poisson, info)
     use fuge_halfspace_depths, only: fuge_halfspace_displacement_grid

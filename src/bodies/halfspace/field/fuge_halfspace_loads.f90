@@ -55,8 +55,8 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: k
 
-    if (minval(sides) < 1 .or. abs(real(size(force), dp) - product(real(sides, dp))) > 0.0_dp) call report(info, FUGE_ERR_SIZE, &
-      'force needs a value for each of the nx*ny cells, nx and ny at least 1')
+    if (minval(sides) < 1 .or. abs(real(size(force), dp) - product(real(sides, dp))) > 0.0_dp) &
+      call report(info, FUGE_ERR_SIZE, 'force needs a value for each of the nx*ny cells, nx and ny at least 1')
     call self%set_rectangles(force, force, force, force, force, info)
     if (info%failed()) return
     do k = 1, size(force)

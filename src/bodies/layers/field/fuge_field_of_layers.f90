@@ -62,8 +62,8 @@ contains
     real(dp) :: nowhere(2, 0)
 
     ! The checks of a field at no point.
-    call fuge_layered_halfplane_displacement(body, x, width, force, element, nowhere(1, :), nowhere(2, :), nowhere, info, &
-                                             symmetric=symmetric)
+    call fuge_layered_halfplane_displacement(body, x, width, force, element, nowhere(1, :), nowhere(2, :), nowhere, &
+                                             info, symmetric=symmetric)
     if (.not. info%failed()) call loads%set_cells(x, width, force, element, info, symmetric)
     if (.not. info%failed()) call take_line(self, body, loads)
   end subroutine set_cells
@@ -200,7 +200,8 @@ contains
     call require_memory(stat, 'displacements at', size(below), 'depths', info)
     if (stat /= 0) return
     call fuge_layered_halfplane_displacement_grid(self%body, self%loads%cell_width(), self%loads%force, &
-                                                  self%loads%element, self%loads%boundary, depth, component, info, below)
+                                                  self%loads%element, self%loads%boundary, depth, component, info, &
+                                                  below)
     if (info%failed()) return
     values(1:3:2, :, :) = component
     values(2, :, :) = 0.0_dp
@@ -244,9 +245,8 @@ contains
     if (.not. info%failed()) call take_area(self, body, loads)
   end subroutine set_rectangles
 
-  !> `nx` x `ny` equal cells side by side, the first one at x = y = 0, on a body of layers. Nine arguments: the layers and
-  !> the grid. All else as of
-  !> `fuge_layered_line_field` and `fuge_halfspace_field`.
+  !> `nx` x `ny` equal cells side by side, the first one at x = y = 0, on a body of layers. Nine arguments: the layers
+  !> and the grid. All else as of `fuge_layered_line_field` and `fuge_halfspace_field`.
   subroutine set_area(self, body, nx, ny, spacing_x, spacing_y, force, boundary, info)
     use fuge_layered_halfspace_depths, only: fuge_layered_halfspace_displacement_grid
     class(fuge_layered_area_field), intent(inout) :: self
@@ -313,7 +313,8 @@ contains
 
     spacing = self%loads%cell_widths()
     call fuge_layered_halfspace_stress_grid(self%body, self%loads%sides(1), self%loads%sides(2), spacing(1), &
-                                            spacing(2), self%loads%force, self%loads%boundary, depth, values, info, below)
+                                            spacing(2), self%loads%force, self%loads%boundary, depth, values, info, &
+                                            below)
   end subroutine area_grid_stress
 
   subroutine area_grid_displacement(self, depth, below, values, info)
@@ -403,8 +404,8 @@ contains
     class(fuge_field), intent(in) :: field
     type(fuge_info), intent(out) :: info
 
-    if (field%cells == 0) call report(info, FUGE_ERR_UNSUPPORTED, 'in layers the largest stresses are those below the ' &
-                                      //'cells of a grid: set the field by a grid')
+    if (field%cells == 0) call report(info, FUGE_ERR_UNSUPPORTED, 'in layers the largest stresses are those ' &
+                                      //'below the cells of a grid: set the field by a grid')
   end subroutine require_grid
 
 end module fuge_field_of_layers

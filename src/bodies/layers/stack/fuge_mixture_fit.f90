@@ -10,8 +10,8 @@ module fuge_mixture_fit
 
   public :: fit_mixture
 
-  !> Width of the narrowest Gaussian over the shortest length: its transform is 1 for all waves whose T differs from 1 by
-  !> more than rounding.
+  !> Width of the narrowest Gaussian over the shortest length: its transform is 1 for all waves whose T differs from 1
+  !> by more than rounding.
   real(dp), parameter :: FIRST = 1.0_dp/7.0_dp
   !> From this q times the shortest length on, T is 1 to rounding.
   real(dp), parameter :: SHORTEST_WAVE = 25.0_dp

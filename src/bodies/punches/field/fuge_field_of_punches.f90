@@ -171,7 +171,8 @@ contains
     real(dp), allocatable :: component(:, :)
 
     call make_components(4, size(below), component, info)
-    if (.not. info%failed()) call fuge_round_stress(self%contact, self%poisson, place(1, :), place(3, :), component, info)
+    if (.not. info%failed()) call fuge_round_stress(self%contact, self%poisson, place(1, :), place(3, :), component, &
+                                                    info)
     if (.not. info%failed()) call fuge_round_tensor(component, values, info)
   end subroutine round_stress
 

@@ -21,8 +21,8 @@ module fuge_field_of_rings
 
 contains
 
-  !> Rings on a half-space: `radius` (rings + 1) as for `fuge_ring_matrix`, `force` (rings) of a solution; `young`, force
-  !> per length squared, which may be infinite, and `poisson` of the body.
+  !> Rings on a half-space: `radius` (rings + 1) as for `fuge_ring_matrix`, `force` (rings) of a solution; `young`,
+  !> force per length squared, which may be infinite, and `poisson` of the body.
   !>
   !> Errors, the field unchanged: those of `fuge_ring_matrix`, FUGE_ERR_SIZE, FUGE_ERR_NOT_FINITE, FUGE_ERR_MODULUS,
   !> FUGE_ERR_OVERFLOW, FUGE_ERR_MEMORY.

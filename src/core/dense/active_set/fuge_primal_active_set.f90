@@ -239,9 +239,10 @@ contains
   end function came_by_rounding
 
   !> At the solution of a set, the point furthest on the wrong side of its stop comes back to it; after many stalls the
-  !> one of the least index, which ends circles (Y.-Y. Chang, R. W. Cottle, Mathematical Programming 18, 1980). Where all
-  !> such points are locked, the excess that locked them was above SIGN_TOLERANCE, yet rounding, of resultants near the
-  !> edge of those that the contact can carry: they are unlocked once with more rounding allowed; then it is `stuck`.
+  !> one of the least index, which ends circles (Y.-Y. Chang, R. W. Cottle, Mathematical Programming 18, 1980). Where
+  !> all such points are locked, the excess that locked them was above SIGN_TOLERANCE, yet rounding, of resultants near
+  !> the edge of those that the contact can carry: they are unlocked once with more rounding allowed; then it is
+  !> `stuck`.
   pure subroutine return_to_stop(canonical, violation, solution, now, stuck)
     type(canonical_problem), intent(in) :: canonical
     real(dp), intent(in) :: violation(:)

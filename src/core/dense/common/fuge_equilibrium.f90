@@ -58,8 +58,8 @@ contains
   !>
   !> `modes` (n, m) with columns of about the same size, `resultant` (m); `least` <= 0 and `most` >= 0 (n), huge without
   !> a limit. Out: `force` (n); `remainder` (m), zero if there are such forces, otherwise the motion that proves there
-  !> are none. `rounding` (m) of the resultant, by default that of the largest. Where ranks, `sharing`, share the points,
-  !> the arguments are those of this rank, and all ranks call it.
+  !> are none. `rounding` (m) of the resultant, by default that of the largest. Where ranks, `sharing`, share the
+  !> points, the arguments are those of this rank, and all ranks call it.
   subroutine find_equilibrium(modes, resultant, least, most, force, remainder, rounding, sharing)
     real(dp), intent(in) :: modes(:, :), resultant(:), least(:), most(:)
     real(dp), intent(out) :: force(:), remainder(:)
@@ -277,8 +277,8 @@ contains
   end function is_negligible
 
   !> Does no point without a limit close along the motion, which is the remainder of the resultants, and do the others,
-  !> each at the limit that does most work, do clearly less than it? The `noise` (m) is that of the motion; forces at the
-  !> points that are `basic` do no work along it, but for rounding.
+  !> each at the limit that does most work, do clearly less than it? The `noise` (m) is that of the motion; forces at
+  !> the points that are `basic` do no work along it, but for rounding.
   function proves_no_equilibrium(modes, motion, noise, force, least, most, basic, space) result(proves)
     real(dp), intent(in) :: modes(:, :), motion(:), noise(:), force(:), least(:), most(:)
     integer, intent(in) :: basic(:)

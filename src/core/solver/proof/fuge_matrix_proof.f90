@@ -361,7 +361,7 @@ contains
     ! Claimed numbers may differ from those that the states give.
     where (claims%at_stop)
       proof%gap_bound = raised(proof%gap_bound + abs(solution%gap - claims%known), 3)
-    elsewhere
+    else where
       proof%force_bound = raised(proof%force_bound + abs(solution%force - claims%known), 3)
     end where
     motion = solution%motion

@@ -245,7 +245,7 @@ contains
     do j = 1, contact%points
       where (contact%included(j:) .or. contact%included(j))
         contact%matrix(j:, j) = scale(contact%matrix(j:, j), contact%point_power(j:) + contact%point_power(j))
-      elsewhere
+      else where
         contact%matrix(j:, j) = 0.0_dp
       end where
     end do
