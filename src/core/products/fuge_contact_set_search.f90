@@ -341,8 +341,8 @@ contains
     type(fuge_info), intent(inout) :: info
 
     if (limited) then
-      call report(info, FUGE_ERR_NOT_DEFINITE, 'the operator is singular: forces that store no energy, the largest at ' &
-                  //'point '//index_text(point)//', cannot move the points to their stops; with a matrix ' &
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'the operator is singular: forces that store no energy, the largest ' &
+                  //'at point '//index_text(point)//', cannot move the points to their stops; with a matrix ' &
                   //'FUGE_ACTIVE_SET takes them up to their limits')
       return
     end if

@@ -1,5 +1,5 @@
-!> The products of fuge_slab_convolution in single precision: half the bytes, those of messages too, with errors of about
-!> 1e-7 of the largest result.
+!> The products of fuge_slab_convolution in single precision: half the bytes, those of messages too, with errors of
+!> about 1e-7 of the largest result.
 module fuge_single_slab_convolution
   use, intrinsic :: iso_c_binding, only: c_loc
   use fuge_kinds, only: dp, wp => sp

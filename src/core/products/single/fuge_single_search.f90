@@ -121,8 +121,8 @@ contains
     end do
   end subroutine find_in_single
 
-  !> The contact, forces and displacements of an iterate that is prepared. `possible`: as for start_forces. Errors: those
-  !> of the operator, FUGE_ERR_MEMORY.
+  !> The contact, forces and displacements of an iterate that is prepared. `possible`: as for start_forces. Errors:
+  !> those of the operator, FUGE_ERR_MEMORY.
   subroutine take_prepared(operator, settings, scene, state, iterate, possible, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
