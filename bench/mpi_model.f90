@@ -3,15 +3,16 @@
 !
 !   mpirun -n RANKS mpi_model [largest N] [latency of the network in s] [bandwidth of a rank in bytes/s]
 !
-! An iteration is one product, one preconditioning, SUMS sums or maxima over all ranks, and passes over the points. On P
-! ranks that share n x n cells it takes
+! An iteration is one product and one preconditioning in single precision, SUMS sums or maxima over all ranks, passes
+! over the points, and the extension of residuals. On P ranks that share n x n cells it takes
 !
-!   W(n) n^2/P + 48 n^2/(P B) (1 - 1/P) + 4 (P - 1) L (levels) + SUMS L log2(P) (levels)
+!   W(n) n^2/P + 24 n^2/(P B) (1 - 1/P) + (4 (P - 1) + SUMS log2(P)) L (levels) + EXTENDED/B + ROWS L (shared levels)
 !
 ! W(n) = (product + preconditioning) (a + b log2 n) + passes is the work at a cell, with all cores busy. The latencies
 ! count once for each grid, as if coarser grids took as many iterations as the finest one; each grid lies on as many
 ! ranks as fuge_slab_rows gives it.
 program mpi_model
+  use, intrinsic :: iso_fortran_env, only: sp => real32
   use bench_exchanges, only: exchange_time, latency, sent_numbers, sum_time
   use fuge, dp => fuge_dp
   use fuge_mpi, only: fuge_mpi_halfspace_operator
@@ -19,7 +20,11 @@ program mpi_model
   implicit none
 
   ! Sums and maxima of an iteration.
-  integer, parameter :: SUMS = 10
+  integer, parameter :: SUMS = 20
+  ! To extend residuals and to collect forces: rows to and from neighbours on each grid that ranks share, and numbers of
+  ! the first grid that they do not share, there and back.
+  integer, parameter :: ROWS = 8
+  real(dp), parameter :: EXTENDED = 4.0_dp*16384.0_dp
   ! As in fuge_slab_rows.
   integer, parameter :: FEWEST_CELLS = 16384, SHORTEST = 128
   ! Cells along a side of the smallest grid that is measured.
@@ -98,22 +103,22 @@ contains
     real(dp), intent(out) :: times(2)
     type(fuge_mpi_halfspace_operator) :: surface
     type(fuge_info) :: info
-    real(dp), allocatable :: x(:), y(:)
+    real(sp), allocatable :: x(:), y(:)
     real(dp) :: start
     integer :: k, status
 
     call surface%set(nx, ny, 1.0_dp, 1.0_dp, 1.0_dp, comm, info)
     call stop_on(info)
-    allocate (x(surface%points()), y(surface%points()), source=1.0_dp)
+    allocate (x(surface%points()), y(surface%points()), source=1.0_sp)
     times = huge(times)
     do k = 1, max(4096/nx, 1) + 3
       call MPI_Barrier(MPI_COMM_WORLD)
       start = MPI_Wtime()
-      call surface%apply(x, y, status)
+      call surface%apply_single(x, y, status)
       times(1) = min(times(1), MPI_Wtime() - start)
       call MPI_Barrier(MPI_COMM_WORLD)
       start = MPI_Wtime()
-      call surface%precondition(x, y, status)
+      call surface%precondition_single(x, y, status)
       times(2) = min(times(2), MPI_Wtime() - start)
     end do
     call MPI_Allreduce(MPI_IN_PLACE, times, 2, MPI_DOUBLE_PRECISION, MPI_MAX, MPI_COMM_WORLD)
@@ -209,8 +214,9 @@ contains
     do while (n <= largest)
       call time_products(MPI_COMM_SELF, n, max(n/ranks, 1), part)
       call time_products(MPI_COMM_WORLD, n, n, times)
-      alone = 2.0_dp*exchange_time(MPI_COMM_WORLD, sent_numbers(n, ranks, .true.), 5)
-      messages = 2.0_dp*sent_numbers(n, ranks, .true.)*real(ranks - 1, dp)*here%number
+      ! Two numbers of single precision are as long as one of these.
+      alone = 2.0_dp*exchange_time(MPI_COMM_WORLD, 0.5_dp*sent_numbers(n, ranks, .true.), 5)
+      messages = sent_numbers(n, ranks, .true.)*real(ranks - 1, dp)*here%number
       expected = [at(here%product, n), at(here%preconditioning, n)]*real(n, dp)**2/real(ranks, dp) &
                  + [messages, 0.5_dp*messages]
       if (rank == 0) write (*, '(i7,3f10.2,f7.1,3f10.2)') n, 1.0e3_dp*[times(1), expected(1), alone], &
@@ -223,7 +229,7 @@ contains
       real(info%products, dp)*sum(iteration(here, n, real(ranks, dp), .false.)), ' s'
   end subroutine check
 
-  ! Table of an iteration on 16 to 4096 ranks.
+  ! Table of an iteration on 8 to 4096 ranks.
   subroutine predict(network, n)
     type(machine), intent(in) :: network
     integer, intent(in) :: n
@@ -233,12 +239,12 @@ contains
     write (*, '(/a,i6,a)') 'n ', n, &
       ':  ranks  with rows      work  bandwidth    latency       sums      total   speed-up'
     alone = sum(iteration(network, n, 1.0_dp, .true.))
-    p = 16
+    p = 8
     do while (p <= 4096)
       parts = iteration(network, n, real(p, dp), .true.)
       share = active(n, real(p, dp))
       write (*, '(8x,i8,i11,5f11.2,f11.1)') p, nint(share), 1.0e3_dp*parts, 1.0e3_dp*sum(parts), alone/sum(parts)
-      p = 4*p
+      p = merge(4*p, 2*p, p >= 16)
     end do
   end subroutine predict
 
@@ -257,10 +263,12 @@ contains
     q = active(n, p)
     parts = 0.0_dp
     parts(1) = (at(where%product, n) + at(where%preconditioning, n) + where%passes)*cells/q
-    parts(2) = 6.0_dp*cells/q*(1.0_dp - 1.0_dp/q)*where%number
+    parts(2) = 3.0_dp*cells/q*(1.0_dp - 1.0_dp/q)*where%number
+    if (q > 1.0_dp) parts(2) = parts(2) + EXTENDED*where%number
     m = n
     do while (m >= 16)
       parts(3) = parts(3) + 4.0_dp*(active(m, p) - 1.0_dp)*where%latency
+      if (q > 1.0_dp .and. real(m, dp)**2 >= FEWEST_CELLS) parts(3) = parts(3) + real(ROWS, dp)*where%latency
       parts(4) = parts(4) + real(SUMS, dp)*where%latency*log(p)/log(2.0_dp)
       m = m/2
       if (.not. coarser) exit
