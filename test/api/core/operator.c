@@ -185,7 +185,7 @@ static void check_halfplane(int element, int boundary, int method) {
   CHECK(info.residual <= 1e-10);
   if (boundary == FUGE_FREE) check_free_answer(element, force, gap, approach);
   /* More load is carried where there is contact, and closes the gaps beside it. */
-  CHECK_DONE(fuge_get_derivative(solver, NULL, 1.0, change, gap_change, &rate));
+  CHECK_DONE(fuge_get_derivatives(solver, NULL, &ONE, change, gap_change, &rate));
   sum = 0.0;
   for (int k = 0; k < CELLS; k++) {
     CHECK(force[k] > 0.0 ? change[k] > 0.0 && gap_change[k] == 0.0 : change[k] == 0.0 && gap_change[k] < 0.0);
@@ -222,7 +222,7 @@ static void solve_long_line(const fuge_operator *op, int threads, double *result
   CHECK_DONE(fuge_solve(solver));
   CHECK_DONE(fuge_get_force(solver, result));
   CHECK_DONE(fuge_get_gap(solver, result + LONG));
-  CHECK_DONE(fuge_get_derivative(solver, NULL, 1.0, result + 2 * LONG, NULL, NULL));
+  CHECK_DONE(fuge_get_derivatives(solver, NULL, &ONE, result + 2 * LONG, NULL, NULL));
   fuge_solver_free(&solver);
 }
 

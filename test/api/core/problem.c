@@ -254,8 +254,6 @@ static void test_derivatives(void) {
   fill(force, N);
   CHECK_STATUS(fuge_get_derivatives(solver, NULL, moment, force, gap, motion), FUGE_ERR_CALL_ORDER);
   CHECK_DONE(fuge_solve(solver));
-  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, motion), FUGE_ERR_SIZE);
-  check_message(solver, "2 motion");
   CHECK_STATUS(fuge_get_derivatives(solver, NULL, moment, NULL, gap, motion), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_get_derivatives(NULL, NULL, moment, force, gap, motion), FUGE_ERR_POINTER);
   CHECK_STATUS(fuge_get_derivatives(solver, NULL, (double[2]){NAN, 0.0}, force, gap, motion), FUGE_ERR_NOT_FINITE);

@@ -158,7 +158,7 @@ static void test_iterative(void) {
     CHECK_VALUES(values, 1e-9, first[k], loads[k] - first[k]);
   }
   fill(values, 2);
-  CHECK_DONE(fuge_get_derivative(solver, NULL, 1.0, values, NULL, NULL));
+  CHECK_DONE(fuge_get_derivatives(solver, NULL, &ONE, values, NULL, NULL));
   CHECK_NEAR(values[0] + values[1], 1.0, 1e-12);
   free_both(&solver, &op);
 }
@@ -473,7 +473,7 @@ static void test_residual_warning(void) {
     CHECK_INT(status, info.residual > options.tolerance ? FUGE_WARN_RESIDUAL : FUGE_DONE);
     if (status != FUGE_WARN_RESIDUAL) continue;
     check_message(solver, "residual");
-    CHECK_DONE(fuge_get_derivative(solver, NULL, 1.0, force, NULL, NULL));
+    CHECK_DONE(fuge_get_derivatives(solver, NULL, &ONE, force, NULL, NULL));
     check_message(solver, "residual");
     warned++;
   }
