@@ -1,6 +1,7 @@
-!> What nearly every test needs: pFUnit, the kind of numbers, statuses with their report, numbers in messages, and
-!> expectations of several values at once.
+!> What nearly every test needs: pFUnit, kinds of numbers, infinity and NaN, statuses with their report, numbers in
+!> messages, and expectations of several values at once.
 module testing
+  use, intrinsic :: iso_fortran_env, only: int64
   use expectations, only: unexpected
   use funit
   use fuge_kinds, only: dp
@@ -12,6 +13,7 @@ module testing
     FUGE_ERR_POINTER, FUGE_ERR_SIZE, FUGE_ERR_UNSUPPORTED, FUGE_ERR_WIDTH, FUGE_WARN_ACCURACY, FUGE_WARN_CASES, &
     FUGE_WARN_ILL_CONDITIONED, FUGE_WARN_KINK, FUGE_WARN_NOT_PROVED, FUGE_WARN_NOT_UNIQUE, FUGE_WARN_NO_CONTACT, &
     FUGE_WARN_PAIRS, FUGE_WARN_RESIDUAL, FUGE_WARN_UNREACHABLE
+  use special_numbers, only: infinity, nan
   implicit none
   public
 
