@@ -238,21 +238,6 @@ static void test_results_end_with_new_data(void) {
   free_both(&solver, &op);
 }
 
-static void test_load_steps(void) {
-  const double loads[] = {1.0, 20.0, 0.0, 2.0}, first[] = {1.0, 15.0, 0.0, 2.0};
-  fuge_operator *op = NULL;
-  fuge_solver *solver = table1_solver(NULL, &op);
-  for (int k = 0; k < 4; k++) {
-    double force[2];
-    CHECK_DONE(fuge_set_load(solver, loads[k]));
-    CHECK_DONE(fuge_solve(solver));
-    CHECK_DONE(fuge_get_force(solver, force));
-    CHECK_VALUES(force, 20.0 * EXACT, first[k], loads[k] - first[k]);
-  }
-  check_solved(solver);
-  free_both(&solver, &op);
-}
-
 static void test_reset(void) {
   double residual = SENTINEL;
   int available = -1;
@@ -442,7 +427,6 @@ int main(void) {
   test_solve_needs_data();
   test_load_before_gap();
   test_results_end_with_new_data();
-  test_load_steps();
   test_reset();
   test_reset_of_new_solver();
   test_two_solvers_on_one_operator();
