@@ -11,7 +11,7 @@ program structures
   use bench_switching, only: switch_members, DROP_ALL, DROP_AND_TAKE_BACK, DROP_WORST, ENDLESS, SETTLED, UNSTABLE
   use fuge, only: dp => fuge_dp, fuge_condensed, fuge_dense_operator, fuge_info, fuge_problem, fuge_solution, &
     fuge_solver
-  use general_reference, only: infinity
+  use special_numbers, only: infinity
   use one_way_structures, only: add_member, add_row, begin_rows, condense_structure, one_way_structure
   use random_structures, only: draw_grillage, draw_pipe, draw_raft, draw_truss
   use structure_oracle, only: know_structure, known_structure

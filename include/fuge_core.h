@@ -447,19 +447,15 @@ int fuge_get_resultant(const fuge_solver *s, double *resultant);  /* m: R^T f; o
                                                                      the sum of the forces */
 
 /* Derivative of the last solution in a direction, exact as long as the contact set does
- * not change: the changes of force and gap (n each) and of v_0 (motion, 1) for a change of
- * the gaps (n; NULL for none) and of the load.  gap and motion may be NULL.  With gap_change
- * NULL and load_change 1 the contact stiffness is 1/motion; a unit gap_change at k gives
- * column k of the sensitivity to the gaps.  After a dense engine each call costs four
- * triangular solves, after the iteration products on the contact set, to the tolerance of the
- * solve.  FUGE_ERR_CALL_ORDER also after a solve with zero load; FUGE_ERR_SIZE unless m = 1;
- * FUGE_ERR_NO_EQUILIBRIUM where the contact does not resist what the changes load; by
- * products also FUGE_ERR_ITERATION_LIMIT where alpha is too badly conditioned on the contact. */
-int fuge_get_derivative(const fuge_solver *s, const double *gap_change, double load_change,
-                        double *force, double *gap, double *motion);
-
-/* The same for m modes: load_change (m; NULL for none) has the changes of the resultants of
- * free motions and of prescribed motions, motion (m) the changes of all motions. */
+ * not change: the changes of force and gap (n each) and of all motions (m) for changes of the
+ * gaps (n; NULL for none) and of the loads (m; NULL for none), which are the resultants of free
+ * motions and the values of prescribed ones.  gap and motion may be NULL.  Of one translation,
+ * with gap_change NULL and a load_change of 1, the contact stiffness is 1/motion; a unit
+ * gap_change at k gives column k of the sensitivity to the gaps.  After a dense engine each
+ * call costs four triangular solves, after the iteration products on the contact set, to the
+ * tolerance of the solve.  FUGE_ERR_CALL_ORDER also after a solve with zero load;
+ * FUGE_ERR_NO_EQUILIBRIUM where the contact does not resist what the changes load; by products
+ * also FUGE_ERR_ITERATION_LIMIT where alpha is too badly conditioned on the contact. */
 int fuge_get_derivatives(const fuge_solver *s, const double *gap_change, const double *load_change,
                          double *force, double *gap, double *motion);
 
@@ -484,25 +480,15 @@ int fuge_prove(const fuge_solver *s, double *force_bound, double *gap_bound,
 
 /* ---- design ------------------------------------------------------------- */
 
-/* The gradient of an objective J at the last solution, over all gaps and loads at once: the reverse
- * of fuge_get_derivatives, in the time of one call of it, whatever the number of data.  It is exact
- * as long as the contact set does not change.
- *   force_weight   n, dJ/df; NULL if J does not depend on the forces; unit of J per force
- *   gap_weight     n, dJ/dc, by the gaps under load, NULL as above; unit of J per length
- *   motion_weight  m, dJ/dq, NULL as above
- *   gap_gradient   out  n, dJ/dg, by the initial gaps; unit of J per length
- *   load_gradient  out  m, dJ/dw, by the resultants; where a motion is prescribed, by the motion
- * The last two may be NULL, and may be arrays of the weights.  FUGE_WARN_KINK, unless the solve had
- * a warning, which holds for the gradient too: points lie on the border between two states, as one
- * that touches without force, and the gradient is that of one side of a kink.  After the iteration
- * products on the contact set, and one more for weights of gaps; fuge_get_gradients takes one where
- * displacements are small beside gaps or compliances.  Errors as for fuge_get_derivatives;
- * FUGE_ERR_NO_EQUILIBRIUM if J depends on a motion that the contact does not resist;
- * FUGE_ERR_OVERFLOW; those of the product. */
-int fuge_get_adjoint(const fuge_solver *s, const double *force_weight, const double *gap_weight,
-                     const double *motion_weight, double *gap_gradient, double *load_gradient);
-
-/* As fuge_get_adjoint, with the gradients by all other data; each of them may be NULL.
+/* The gradient of an objective J at the last solution, over all data of the problem at once: the
+ * reverse of fuge_get_derivatives, in the time of one call of it, whatever the number of data.  It
+ * is exact as long as the contact set does not change.
+ *   force_weight      n, dJ/df; NULL if J does not depend on the forces; unit of J per force
+ *   gap_weight        n, dJ/dc, by the gaps under load, NULL as above; unit of J per length
+ *   motion_weight     m, dJ/dq, NULL as above
+ *   gap               out  n, dJ/dg, by the initial gaps; unit of J per length
+ *   load              out  m, dJ/dw, by the resultants; where a motion is prescribed, by the
+ *                          motion
  *   compliance        out  n, by the compliances; where there is none, by the first bit of one
  *   motion_stiffness  out  m, by the springs on the motions; 0 where a motion is prescribed
  *   gap_upper         out  n, by the plays; 0 but at the upper stop, and where a tied point pulls
@@ -512,7 +498,13 @@ int fuge_get_adjoint(const fuge_solver *s, const double *force_weight, const dou
  *   log_modulus       out  1, e_star*dJ/de_star: by the logarithm of the modulus to which all
  *                          displacements by contact forces are inversely proportional; unit of J
  *   at_kink           out  n, 1 for a point on the border between two states, else 0
- * The gradient by a coefficient of the influence matrix is gap[i]*force[j]. */
+ * Each gradient may be NULL, and those by gaps and loads may be arrays of the weights.  The gradient
+ * by a coefficient of the influence matrix is gap[i]*force[j].  FUGE_WARN_KINK, unless the solve had
+ * a warning, which holds for the gradient too: points lie on the border between two states, as one
+ * that touches without force, and the gradient is that of one side of a kink.  After the iteration
+ * products on the contact set, one more for weights of gaps, and one where displacements are small
+ * beside gaps or compliances.  Errors as for fuge_get_derivatives; FUGE_ERR_NO_EQUILIBRIUM if J
+ * depends on a motion that the contact does not resist; FUGE_ERR_OVERFLOW; those of the product. */
 int fuge_get_gradients(const fuge_solver *s, const double *force_weight, const double *gap_weight,
                        const double *motion_weight, double *gap, double *load, double *compliance,
                        double *motion_stiffness, double *gap_upper, double *limit,

@@ -175,22 +175,18 @@ int fuge_field_interfaces(const fuge_field *field, int capacity, int *interfaces
 
 /* ---- stress measures -----------------------------------------------------
  *
- * Scalars of stresses, point by point.  A tensor is 6 x points: xx, yy, zz, yz, xz, xy.  Results
- * have the unit of the stress; they are NaN where a component is NaN or infinite.  Results may not
- * overlap inputs.
- * FUGE_ERR_POINTER, FUGE_ERR_SIZE. */
-
-/* Principal stresses, principal 3 x points, the largest first; to rounding of the largest one. */
-int fuge_principal_stresses(int points, const double *tensor, double *principal,
-                            char *message, size_t len);
-
-/* One number for each point.  Von Mises stress, sqrt(3 J_2), and Tresca stress, the largest
- * principal stress minus the smallest one, which is twice the largest shear stress: in simple
- * tension both are the stress, and a large hydrostatic stress costs them no digits.  Mean stress,
- * (xx + yy + zz)/3. */
-int fuge_von_mises(int points, const double *tensor, double *value, char *message, size_t len);
-int fuge_tresca(int points, const double *tensor, double *value, char *message, size_t len);
-int fuge_mean_stress(int points, const double *tensor, double *value, char *message, size_t len);
+ * Scalars of stresses, point by point; each result may be NULL.
+ *   tensor     in   6 x points: xx, yy, zz, yz, xz, xy
+ *   principal  out  3 x points, principal stresses, the largest first; to rounding of the largest
+ *   von_mises  out  points, sqrt(3 J_2)
+ *   tresca     out  points, the largest principal stress minus the smallest one, which is twice
+ *                   the largest shear stress
+ *   mean       out  points, (xx + yy + zz)/3
+ * In simple tension both von_mises and tresca are the stress, and a large hydrostatic stress costs
+ * them no digits.  Results have the unit of the stress; they are NaN where a component is NaN or
+ * infinite.  They may not overlap the tensor.  FUGE_ERR_POINTER, FUGE_ERR_SIZE. */
+int fuge_measure_stresses(int points, const double *tensor, double *principal, double *von_mises,
+                          double *tresca, double *mean, char *message, size_t len);
 
 #ifdef __cplusplus
 }

@@ -49,7 +49,7 @@ static int go_down(const fuge_field *field, double a, double p0) {
 
   for (int k = 0; k < POINTS; k++) place[3 * k + 2] = 0.4 * a * k;
   if (failed(fuge_field_stress(field, POINTS, place, NULL, tensor, message, sizeof message))
-      || failed(fuge_von_mises(POINTS, tensor, mises, message, sizeof message)))
+      || failed(fuge_measure_stresses(POINTS, tensor, NULL, mises, NULL, NULL, message, sizeof message)))
     return 1;
   printf("  z/a     xx/p0   exact      zz/p0   exact   von Mises/p0\n");
   for (int k = 0; k < POINTS; k++) {

@@ -24,27 +24,29 @@ def principal_stresses(tensor: ArrayLike) -> NDArray[np.float64]:
     """Principal stresses (.., 3) of tensors (.., 6), the largest first."""
     tensors = _tensors(tensor)
     principal = np.empty((*tensors.shape[:-1], 3))
-    call("fuge_principal_stresses", tensors.size // 6, tensors, principal)
+    call("fuge_measure_stresses", tensors.size // 6, tensors, principal, None, None, None)
     return principal
 
 
-def _measure(name: str, tensor: ArrayLike) -> NDArray[np.float64]:
+def _measure(which: int, tensor: ArrayLike) -> NDArray[np.float64]:
+    """The scalar that is number `which` of the three that the function has."""
     tensors = _tensors(tensor)
     value = np.empty(tensors.shape[:-1])
-    call(name, tensors.size // 6, tensors, value)
+    scalars = [value if which == k else None for k in range(3)]
+    call("fuge_measure_stresses", tensors.size // 6, tensors, None, *scalars)
     return value
 
 
 def von_mises(tensor: ArrayLike) -> NDArray[np.float64]:
     """Von Mises stress of tensors (.., 6)."""
-    return _measure("fuge_von_mises", tensor)
+    return _measure(0, tensor)
 
 
 def tresca(tensor: ArrayLike) -> NDArray[np.float64]:
     """Tresca stress of tensors (.., 6): the largest principal stress minus the smallest one."""
-    return _measure("fuge_tresca", tensor)
+    return _measure(1, tensor)
 
 
 def mean_stress(tensor: ArrayLike) -> NDArray[np.float64]:
     """Mean stress of tensors (.., 6): (xx + yy + zz)/3."""
-    return _measure("fuge_mean_stress", tensor)
+    return _measure(2, tensor)

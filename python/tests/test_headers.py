@@ -19,8 +19,6 @@ COMPILER = shutil.which(os.environ.get("CC", "cc"))
 # Functions of the headers that the package does not call, with what does the same or the reason why nothing does.
 NOT_CALLED = {
     "fuge_solve_dense": "fuge.solve does the same through a solver, whose report it returns",
-    "fuge_get_derivative": "Solver.derivative calls fuge_get_derivatives, which is the same for any number of motions",
-    "fuge_get_adjoint": "Solver.vjp calls fuge_get_gradients, which gives the same and more",
     "fuge_default_link_law": "the keywords of Links.add_support have its values as defaults",
     "fuge_mesh_join": "join_meshes puts arrays of numpy one after the other",
 }

@@ -18,23 +18,7 @@ module fuge_c_design
 
 contains
 
-  !> The gradient over gaps and loads: see `fuge_solve_adjoint`.
-  function c_get_adjoint(solver, force_weight, gap_weight, motion_weight, gap_gradient, load_gradient) &
-    bind(c, name='fuge_get_adjoint') result(status)
-    type(c_ptr), intent(in), value :: solver, force_weight, gap_weight, motion_weight, gap_gradient, load_gradient
-    integer(c_int) :: status
-    type(solver_handle), pointer :: handle
-    type(fuge_gradients) :: gradients
-    type(fuge_info) :: info
-
-    call solve_adjoint(solver, force_weight, gap_weight, motion_weight, handle, gradients, info)
-    status = report_to_handle(info, handle)
-    if (info%failed()) return
-    call give(gradients%gap, gap_gradient)
-    call give(gradients%load, load_gradient)
-  end function c_get_adjoint
-
-  !> The gradient over all data. The arguments are thirteen, because each gradient may be left out.
+  !> The gradient over all data, see `fuge_solve_adjoint`. The arguments are thirteen, because each gradient may be left out.
   function c_get_gradients(solver, force_weight, gap_weight, motion_weight, gap, load, compliance, motion_stiffness, &
                            gap_upper, limit, limit_upper, log_modulus, at_kink) &
     bind(c, name='fuge_get_gradients') result(status)
@@ -44,8 +28,19 @@ contains
     type(solver_handle), pointer :: handle
     type(fuge_gradients) :: gradients
     type(fuge_info) :: info
+    type(fuge_solution) :: weight
 
-    call solve_adjoint(solver, force_weight, gap_weight, motion_weight, handle, gradients, info)
+    call find_solver(solver, handle, info)
+    if (.not. info%failed()) call require_solution(handle, info)
+    if (.not. info%failed()) then
+      call copy_values(force_weight, size(handle%solution%force), 'force_weight', weight%force, info)
+      call copy_values(gap_weight, size(handle%solution%force), 'gap_weight', weight%gap, info)
+      call copy_values(motion_weight, size(handle%solution%motion), 'motion_weight', weight%motion, info)
+    end if
+    if (.not. info%failed()) then
+      call fuge_solve_adjoint(handle%solver, handle%operator%operator, handle%problem, handle%solution, weight, &
+                              gradients, info)
+    end if
     status = report_to_handle(info, handle)
     if (info%failed()) return
     call give(gradients%gap, gap)
@@ -58,25 +53,6 @@ contains
     call give(gradients%log_modulus, log_modulus)
     call give(merge(1, 0, gradients%at_kink), at_kink)
   end function c_get_gradients
-
-  !> The adjoint solution for weights behind addresses, NULL for zero.
-  subroutine solve_adjoint(solver, force_weight, gap_weight, motion_weight, handle, gradients, info)
-    type(c_ptr), intent(in) :: solver, force_weight, gap_weight, motion_weight
-    type(solver_handle), pointer, intent(out) :: handle
-    type(fuge_gradients), intent(inout) :: gradients
-    type(fuge_info), intent(out) :: info
-    type(fuge_solution) :: weight
-
-    call find_solver(solver, handle, info)
-    if (.not. info%failed()) call require_solution(handle, info)
-    if (info%failed()) return
-    call copy_values(force_weight, size(handle%solution%force), 'force_weight', weight%force, info)
-    call copy_values(gap_weight, size(handle%solution%force), 'gap_weight', weight%gap, info)
-    call copy_values(motion_weight, size(handle%solution%motion), 'motion_weight', weight%motion, info)
-    if (info%failed()) return
-    call fuge_solve_adjoint(handle%solver, handle%operator%operator, handle%problem, handle%solution, weight, &
-                            gradients, info)
-  end subroutine solve_adjoint
 
   !> A copy of `number` values behind an `address`, none for NULL. Error: FUGE_ERR_MEMORY.
   subroutine copy_values(address, number, name, copy, info)

@@ -73,18 +73,6 @@ contains
     call give(resultants_of(handle%problem, handle%solution%force, space), resultant)
   end function c_get_resultant
 
-  !> First-order changes of the last solution with the gaps and one load, see `derivative` of `fuge_solver`.
-  function c_get_derivative(solver, gap_change, load_change, force, gap, motion) &
-    bind(c, name='fuge_get_derivative') result(status)
-    type(c_ptr), intent(in), value :: solver, gap_change, force, gap, motion
-    real(c_double), intent(in), value :: load_change
-    integer(c_int) :: status
-    type(solver_handle), pointer :: handle
-
-    status = find_solution(solver, force, 'force', handle)
-    if (status == FUGE_DONE) status = differentiate(handle, gap_change, [load_change], force, gap, motion)
-  end function c_get_derivative
-
   !> First-order changes of the last solution with the gaps and all loads; either is NULL if none of it changes.
   function c_get_derivatives(solver, gap_change, load_change, force, gap, motion) &
     bind(c, name='fuge_get_derivatives') result(status)

@@ -13,6 +13,8 @@ static int checks_made, checks_failed;
 
 /* In arrays that a failing call must leave alone. */
 static const double SENTINEL = -12345.75;
+/* A change of one load by its unit. */
+static const double ONE = 1.0;
 
 #define CHECK(condition) check_true(__FILE__, __LINE__, #condition, (condition))
 #define CHECK_INT(actual, expected) check_int(__FILE__, __LINE__, #actual, (actual), (expected))

@@ -149,7 +149,7 @@ require_same(functions fuge_mpi.h "${in_header}" "${in_fortran}")
 
 file(GLOB headers "${INCLUDE_DIR}/*.h")
 read_c(header ${headers})
-read_sources(fortran "${SOURCES}/core/base/fuge_version_number.f90")
+read_sources(fortran "${SOURCES}/core/fuge_version_number.f90")
 string(REGEX MATCHALL "#define FUGE_VERSION \"[^\"]+\"" in_header "${header}")
 string(REGEX MATCH "FUGE_VERSION = '[^']+'" in_fortran "${fortran}")
 string(REGEX REPLACE ".*'(.*)'" "#define FUGE_VERSION \"\\1\"" in_fortran "${in_fortran}")

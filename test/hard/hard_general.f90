@@ -11,7 +11,8 @@ module hard_general
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_NO_EQUILIBRIUM, FUGE_WARN_ILL_CONDITIONED, &
     FUGE_WARN_NOT_UNIQUE
-  use general_reference, only: infinity, integers, solve_general
+  use general_reference, only: integers, solve_general
+  use special_numbers, only: infinity
   use influence_matrices, only: integer_bed
   implicit none
   private

@@ -3,7 +3,8 @@ module random_laws
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem
-  use general_reference, only: draw, infinity, integers, is_excluded, play_of
+  use general_reference, only: draw, integers, is_excluded, play_of
+  use special_numbers, only: infinity
   use random_draws, only: chance, decimal, one_of, seed_of, uniform
   implicit none
   private

@@ -5,7 +5,8 @@ module random_scenes
   use engine_scene_type, only: engine_scene
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem
-  use general_reference, only: draw, infinity, integers, is_prescribed, modes_of
+  use general_reference, only: draw, integers, is_prescribed, modes_of
+  use special_numbers, only: infinity
   use random_bodies, only: draw_body
   use random_draws, only: chance, decimal, one_of, seed_of, uniform
   implicit none

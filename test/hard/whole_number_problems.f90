@@ -9,7 +9,7 @@ module whole_number_problems
   use fuge_kinds, only: dp
   use fuge_lapack, only: dsyev
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use general_reference, only: infinity
+  use special_numbers, only: infinity
   use random_draws, only: chance, one_of, seed_of, uniform
   implicit none
   private

@@ -57,8 +57,7 @@ plant(bodies/rings/folders.txt "hertz : core/attic\n"
 # Circles: of two folders, and of a folder with one that holds a folder below it.
 plant_instead(core/folders.txt "base :" "base : problem"
   "core/folders.txt lets core/base use core/problem, which is not above it\n")
-plant_instead(core/folders.txt "dense/common : base algebra problem matrices"
-  "dense/common : base algebra problem matrices dense"
+plant_instead(core/folders.txt "dense/common : base algebra problem" "dense/common : base algebra problem dense"
   "core/folders.txt lets core/dense/common use core/dense/tableau, which is not above it\n")
 # Arguments and chains.
 plant(core/base/fuge_planted_eleven.f90

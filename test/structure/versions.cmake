@@ -28,7 +28,7 @@ file(GLOB manifests RELATIVE "${ROOT}" "${ROOT}/fpm.toml" "${ROOT}/src/*/fpm.tom
 foreach(manifest IN LISTS manifests)
   expect_version("${manifest}" "^version = ")
 endforeach()
-expect_version(src/core/base/fuge_version_number.f90 " FUGE_VERSION = ")
+expect_version(src/core/fuge_version_number.f90 " FUGE_VERSION = ")
 expect_version(CITATION.cff "^version: ")
 expect_version(doc/man/fuge.3 "^[.]TH ")
 expect_version(doc/install.md "fuge-[0-9.]+-py3")

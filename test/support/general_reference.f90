@@ -1,7 +1,6 @@
 !> What references of contact problems share: random numbers, elimination, the data of a problem with their defaults,
 !> and short calls of the solver.
 module general_reference
-  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_positive_inf
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_kinds, only: dp
   use fuge_matrix_operator, only: fuge_dense_operator
@@ -9,10 +8,11 @@ module general_reference
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info
+  use special_numbers, only: infinity
   implicit none
   private
 
-  public :: draw, integers, solve_general, solve_with, eliminate, infinity
+  public :: draw, integers, solve_general, solve_with, eliminate
   public :: play_of, is_excluded, is_prescribed, modes_of
 
   !> A pivot below this fraction of the largest entry means that the system is singular.
@@ -41,12 +41,6 @@ contains
     call draw(seed, values)
     values = real(low, dp) + aint(values*real(high - low + 1, dp))
   end subroutine integers
-
-  pure function infinity()
-    real(dp) :: infinity
-
-    infinity = ieee_value(infinity, ieee_positive_inf)
-  end function infinity
 
   !> Solve with a new solver.
   subroutine solve_general(alpha, problem, solution, info, options)

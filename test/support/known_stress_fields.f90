@@ -115,6 +115,8 @@ contains
     u = 0.5_dp*(abs(part) + hypot(part, 2.0_dp*z))
     if (part < 0.0_dp) u = z**2/u
     t = sqrt(max(0.0_dp, 1.0_dp - r**2/(1.0_dp + u)))
+    ! The same without a difference.
+    if (u > 0.0_dp) t = z/sqrt(u)
     ring = (1.0_dp - 2.0_dp*poisson)/3.0_dp*(1.0_dp + t + t**2)/((1.0_dp + t)*(1.0_dp + u))
     angle = (1.0_dp + poisson)*sqrt(u)*atan2(1.0_dp, sqrt(u))
     stress(3) = -t**3/max(tiny(1.0_dp), u + t**2)

@@ -4,7 +4,8 @@ module law_reference
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_kinds, only: dp
   use fuge_problem_type, only: fuge_problem, fuge_solution
-  use general_reference, only: draw, eliminate, infinity, integers, is_excluded, is_prescribed, modes_of, play_of
+  use general_reference, only: draw, eliminate, integers, is_excluded, is_prescribed, modes_of, play_of
+  use special_numbers, only: infinity
   implicit none
   private
 

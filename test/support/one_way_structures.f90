@@ -7,7 +7,7 @@ module one_way_structures
   use fuge_problem_type, only: fuge_problem
   use fuge_status, only: fuge_info
   use fuge_stiffness_dense, only: fuge_dense_stiffness
-  use general_reference, only: infinity
+  use special_numbers, only: infinity
   implicit none
   private
 

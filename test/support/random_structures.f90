@@ -4,7 +4,8 @@
 module random_structures
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_kinds, only: dp
-  use general_reference, only: draw, infinity
+  use general_reference, only: draw
+  use special_numbers, only: infinity
   use one_way_structures, only: add_member, add_row, begin_rows, one_way_structure
   use raft_plates, only: plate_stiffness
   use random_draws, only: chance, decimal, one_of, seed_of, uniform

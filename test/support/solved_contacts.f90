@@ -1,20 +1,25 @@
 !> Contact problems set up and solved in one line of a test. A solve that does not end as it should fails the test by
 !> itself, with the message of the solver, and leaves numbers that are no answer.
 module solved_contacts
-  use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use funit, only: assertFail
   use fuge_kinds, only: dp
   use fuge_matrix_operator, only: fuge_dense_operator
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
-  use fuge_options_type, only: fuge_options
+  use fuge_options_type, only: fuge_options, FUGE_ACTIVE_SET, FUGE_AUTO, FUGE_GREATEST_DECREASE, FUGE_ITERATIVE, &
+    FUGE_MOST_NEGATIVE, FUGE_PAPER_RULE, FUGE_TABLEAU
   use fuge_problem_type, only: fuge_problem, fuge_solution
   use fuge_solver_type, only: fuge_solver
   use fuge_status, only: fuge_info, FUGE_DONE
+  use special_numbers, only: nan
   implicit none
   private
 
   public :: solved
+  ! What one needs to call it.
+  public :: fuge_dense_operator, fuge_operator, fuge_options, fuge_problem, fuge_solution, fuge_solver
+  public :: FUGE_ACTIVE_SET, FUGE_AUTO, FUGE_GREATEST_DECREASE, FUGE_ITERATIVE, FUGE_MOST_NEGATIVE, FUGE_PAPER_RULE, &
+    FUGE_TABLEAU
 
   !> The solution of a problem with a matrix or another operator, by default with the status FUGE_DONE. `what` stands
   !> before the message of a failure; `info` is that of the solve; a `solver` may have solved other problems before.
@@ -123,12 +128,10 @@ contains
   pure function no_answer(problem) result(solution)
     type(fuge_problem), intent(in) :: problem
     type(fuge_solution) :: solution
-    real(dp) :: nan
 
-    nan = ieee_value(nan, ieee_quiet_nan)
-    allocate (solution%force(problem%points()), source=nan)
-    allocate (solution%gap(problem%points()), source=nan)
-    allocate (solution%motion(problem%mode_count()), source=nan)
+    allocate (solution%force(problem%points()), source=nan())
+    allocate (solution%gap(problem%points()), source=nan())
+    allocate (solution%motion(problem%mode_count()), source=nan())
     allocate (solution%state(problem%points()), source=0)
   end function no_answer
 

@@ -92,7 +92,7 @@ static void solve_by(record *r, const fuge_operator *op, int n, int method, int 
   put(r, &approach, 1);
   put(r, &info.residual, 1);
   if (method != FUGE_ITERATIVE || threads > 1) {
-    expect(r, fuge_get_derivative(s, NULL, 1.0, force, NULL, &rate), FUGE_DONE);
+    expect(r, fuge_get_derivatives(s, NULL, &ONE, force, NULL, &rate), FUGE_DONE);
     put(r, force + first, N);
     put(r, &rate, 1);
   }

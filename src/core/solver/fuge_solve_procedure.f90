@@ -2,6 +2,7 @@
 !> a reader of the type has to go through it.
 submodule(fuge_solver_type) fuge_solve_procedure
   use fuge_certified_solution, only: certify
+  use fuge_contact_states, only: FUGE_OPEN
   use fuge_dense_engine, only: dense_engine
   use fuge_engine_choice, only: takes_products
   use fuge_force_level, only: explain_by_force_level, judge_force_level
@@ -15,7 +16,6 @@ submodule(fuge_solver_type) fuge_solve_procedure
   use fuge_shared_problem, only: check_shared_problem
   use fuge_status, only: require_memory, FUGE_ERR_CANCELLED
   use fuge_threads, only: thread_team, usable_threads
-  use fuge_unloaded_contact, only: is_unloaded, solve_without_load
   implicit none
 
 contains
@@ -166,5 +166,33 @@ contains
     if (.not. info%failed()) call certify(operator, problem, solution, options%tolerance, info)
     if (.not. info%failed()) call engine%keep(operator, problem, solution)
   end subroutine solve_and_certify
+
+  !> One translation without a load, which has no unique approach.
+  pure function is_unloaded(problem)
+    type(fuge_problem), intent(in) :: problem
+    logical :: is_unloaded
+
+    is_unloaded = problem%has_one_load()
+    if (is_unloaded) is_unloaded = .not. problem%resultant(1) > 0.0_dp
+  end function is_unloaded
+
+  !> The limit of a vanishing load: the bodies just touch at the smallest gap.
+  subroutine solve_without_load(problem, space, solution, info)
+    type(fuge_problem), intent(in) :: problem
+    type(point_space), intent(in) :: space
+    type(fuge_solution), intent(inout) :: solution
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    allocate (solution%force(problem%points()), solution%gap(problem%points()), solution%motion(1), &
+              solution%state(problem%points()), stat=stat)
+    call require_memory(stat, 'the forces and gaps of', problem%points(), 'points', info)
+    call space%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    solution%force = 0.0_dp
+    solution%motion = space%least(minval(problem%gap))
+    solution%gap = problem%gap - solution%motion(1)
+    solution%state = FUGE_OPEN
+  end subroutine solve_without_load
 
 end submodule fuge_solve_procedure

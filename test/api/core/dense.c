@@ -29,44 +29,6 @@ static void test_in_place(void) {
   check_table1(shared, gap, approach);
 }
 
-static void test_zero_load(void) {
-  const double initial[2] = {3.0, 1.25};
-  double force[2], gap[2], approach;
-  CHECK_DONE(fuge_solve_dense(2, TABLE1_ALPHA, 2, initial, 0.0, force, gap, &approach, NULL, 0));
-  CHECK_VALUES(force, 0.0, 0.0, 0.0);
-  CHECK_VALUES(gap, 0.0, 1.75, 0.0);
-  CHECK_NEAR(approach, 1.25, 0.0);
-}
-
-static void test_one_point(void) {
-  const double alpha = 0.5, initial = -3.0;
-  double force, gap, approach;
-  CHECK_DONE(fuge_solve_dense(1, &alpha, 1, &initial, 4.0, &force, &gap, &approach, NULL, 0));
-  CHECK_NEAR(force, 4.0, EXACT);
-  CHECK_NEAR(gap, 0.0, 0.0);
-  CHECK_NEAR(approach, -1.0, EXACT);
-}
-
-/* A constant added to the gaps moves the approach only. */
-static void test_gap_datum(void) {
-  for (int sign = -1; sign <= 1; sign += 2) {
-    const double initial[2] = {sign * 1024.0, sign * 1024.0 + 1.0};
-    double force[2], gap[2], approach;
-    CHECK_DONE(fuge_solve_dense(2, TABLE1_ALPHA, 2, initial, TABLE1_LOAD, force, gap, &approach, NULL, 0));
-    CHECK_NEAR(approach, sign * 1024.0 + TABLE1_APPROACH, 1024.0 * EXACT);
-    check_table1(force, gap, TABLE1_APPROACH);
-  }
-}
-
-/* Both points in contact: f_1 + f_2 = 20, c_1 = c_2 = 0 gives f = (15, 5). */
-static void test_both_in_contact(void) {
-  double force[2], gap[2], approach;
-  CHECK_DONE(fuge_solve_dense(2, TABLE1_ALPHA, 2, TABLE1_GAP, 20.0, force, gap, &approach, NULL, 0));
-  CHECK_VALUES(force, 20.0 * EXACT, 15.0, 5.0);
-  CHECK_VALUES(gap, 0.0, 0.0, 0.0);
-  CHECK_NEAR(approach, 3.5, 20.0 * EXACT);
-}
-
 /* Data that are refused: what by, and what the message has to name. */
 typedef struct bad_data {
   int n, lda;
@@ -189,10 +151,6 @@ int main(void) {
   test_table1();
   test_padding();
   test_in_place();
-  test_zero_load();
-  test_one_point();
-  test_gap_datum();
-  test_both_in_contact();
   test_bad_data();
   test_repeated_point();
   test_bad_for_solve();

@@ -136,18 +136,6 @@ static void test_states_without_law(void) {
   free_both(&solver, &op);
 }
 
-/* The iteration tells of states too. */
-static void test_states_of_the_iteration(void) {
-  fuge_options options;
-  fuge_default_options(&options);
-  options.method = FUGE_ITERATIVE;
-  fuge_operator *op = NULL;
-  fuge_solver *solver = table1_solver(&options, &op);
-  CHECK_DONE(fuge_solve(solver));
-  check_states(solver, FUGE_AT_LOWER_STOP, FUGE_OPEN);
-  free_both(&solver, &op);
-}
-
 /* A load beyond the sum of the limits, then one at the sum, with which nothing resists the approach. */
 static void test_limits_that_do_not_carry(void) {
   const double limit[N] = {1.0, 2.0};
@@ -195,12 +183,6 @@ static void test_refused(void) {
   free_both(&solver, &op);
 }
 
-static int twice(int n, const double *f, double *u, void *user) {
-  (void)user;
-  for (int k = 0; k < n; k++) u[k] = 2.0 * f[k];
-  return 0;
-}
-
 /* Springs of stiffness 1 and 2 share the load until the second one is at its limit of 3, at a load of 4.5.  The body's
  * own spring of stiffness 3 takes as much as both. */
 static void test_path(void) {
@@ -228,49 +210,13 @@ static void test_path(void) {
   free_both(&solver, &op);
 }
 
-/* The iteration finds what the active set does, with a matrix and with products only. */
-static void test_iteration(void) {
-  double by_set[N], force[N];
-  fuge_options options;
-  fuge_operator *op = NULL;
-  fuge_solver *solver = NULL;
-  solver = new_flat(ELASTIC, NULL, &op);
-  CHECK_DONE(fuge_set_load(solver, 1.0));
-  CHECK_DONE(fuge_set_compliance(solver, SPRINGS));
-  CHECK_DONE(fuge_set_motion_stiffness(solver, 0, 1.0));
-  CHECK_DONE(fuge_solve(solver));
-  CHECK_DONE(fuge_get_force(solver, by_set));
-  free_both(&solver, &op);
-  fuge_default_options(&options);
-  options.method = FUGE_ITERATIVE;
-  solver = new_flat(ELASTIC, &options, &op);
-  CHECK_DONE(fuge_set_load(solver, 1.0));
-  CHECK_DONE(fuge_set_compliance(solver, SPRINGS));
-  CHECK_DONE(fuge_set_motion_stiffness(solver, 0, 1.0));
-  CHECK_DONE(fuge_solve(solver));
-  CHECK_DONE(fuge_get_force(solver, force));
-  for (int k = 0; k < N; k++) CHECK_NEAR(force[k], by_set[k], 1e-9);
-  free_both(&solver, &op);
-  CHECK_DONE(fuge_operator_callback(N, twice, NULL, &op, NULL, 0));
-  CHECK_DONE(fuge_solver_new(op, NULL, &solver, NULL, 0));
-  CHECK_DONE(fuge_set_gap(solver, FLAT, NULL));
-  CHECK_DONE(fuge_set_load(solver, 1.0));
-  CHECK_DONE(fuge_set_compliance(solver, SPRINGS));
-  CHECK_DONE(fuge_solve(solver));
-  CHECK_DONE(fuge_get_force(solver, force));
-  CHECK_NEAR(force[0] * (2.0 + SPRINGS[0]), force[1] * (2.0 + SPRINGS[1]), 1e-9);
-  free_both(&solver, &op);
-}
-
 int main(void) {
   test_two_springs();
   test_spring_on_motion();
   test_pulling_limit();
   test_states_without_law();
-  test_states_of_the_iteration();
   test_limits_that_do_not_carry();
   test_refused();
   test_path();
-  test_iteration();
   return check_summary();
 }

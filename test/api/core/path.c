@@ -68,25 +68,25 @@ static void test_refusals(void) {
 
 /* Both in contact at F = 20: dF = (1/2, 1/2), dv_0 = 0.15 per unit of load. */
 static void test_derivative(void) {
-  const double unit[2] = {0.0, 1.0};
+  const double unit[2] = {0.0, 1.0}, not_a_number = NAN;
   double force[2], gap[2], motion = -1.0;
   fuge_info info;
   fuge_operator *op = NULL;
   fuge_solver *solver = new_solver(TABLE1_ALPHA, 2, NULL, &op);
   CHECK_DONE(fuge_set_gap(solver, TABLE1_GAP, NULL));
   CHECK_DONE(fuge_set_load(solver, 20.0));
-  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_get_derivatives(solver, NULL, &ONE, force, gap, &motion), FUGE_ERR_CALL_ORDER);
   CHECK_DONE(fuge_solve(solver));
-  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, NULL, gap, &motion), FUGE_ERR_POINTER);
-  CHECK_DONE(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion));
+  CHECK_STATUS(fuge_get_derivatives(solver, NULL, &ONE, NULL, gap, &motion), FUGE_ERR_POINTER);
+  CHECK_DONE(fuge_get_derivatives(solver, NULL, &ONE, force, gap, &motion));
   CHECK_VALUES(force, 1e-14, 0.5, 0.5);
   CHECK_NEAR(gap[0], 0.0, 0.0);
   CHECK_NEAR(motion, 0.15, 1e-14);
   /* A unit of gap at point 2 moves 5 units of force to point 1 (0.2 F_1 - 0.2 F_2 = 2 .. 1). */
-  CHECK_DONE(fuge_get_derivative(solver, unit, 0.0, force, NULL, NULL));
+  CHECK_DONE(fuge_get_derivatives(solver, unit, NULL, force, NULL, NULL));
   CHECK_VALUES(force, 1e-13, 5.0, -5.0);
   /* Solution and report of the solve are still there, after a derivative that is refused too. */
-  CHECK_STATUS(fuge_get_derivative(solver, unit, NAN, force, NULL, NULL), FUGE_ERR_NOT_FINITE);
+  CHECK_STATUS(fuge_get_derivatives(solver, unit, &not_a_number, force, NULL, NULL), FUGE_ERR_NOT_FINITE);
   CHECK_DONE(fuge_get_info(solver, &info));
   CHECK_INT(info.status, FUGE_DONE);
   CHECK_INT(info.contacts, 2);
@@ -95,7 +95,7 @@ static void test_derivative(void) {
   CHECK_NEAR(force[0] + force[1], 20.0, 1e-13);
   CHECK_DONE(fuge_set_load(solver, 0.0));
   CHECK_DONE(fuge_solve(solver));
-  CHECK_STATUS(fuge_get_derivative(solver, NULL, 1.0, force, gap, &motion), FUGE_ERR_CALL_ORDER);
+  CHECK_STATUS(fuge_get_derivatives(solver, NULL, &ONE, force, gap, &motion), FUGE_ERR_CALL_ORDER);
   fuge_solver_free(&solver);
   fuge_operator_free(&op);
 }

@@ -106,36 +106,6 @@ static void test_proof(void) {
   free_both(&solver, &op);
 }
 
-/* The motion that is given has no error. */
-static void test_proof_of_approach(void) {
-  double motion = -1.0;
-  fuge_operator *op = NULL;
-  fuge_solver *solver = table1_solver(NULL, &op);
-  CHECK_DONE(fuge_set_approach(solver, TABLE1_APPROACH));
-  CHECK_DONE(fuge_solve(solver));
-  CHECK_DONE(fuge_prove(solver, NULL, NULL, &motion, NULL));
-  CHECK_NEAR(motion, 0.0, 0.0);
-  free_both(&solver, &op);
-}
-
-/* The second point just touches: nobody can say whether it does, and all is bounded. */
-static void test_proof_of_a_border(void) {
-  const double gap[2] = {0.0, 0.2};
-  double force_bound[2] = {-1.0, -1.0};
-  int proved[2] = {-1, -1};
-  char message[FUGE_MESSAGE_LENGTH + 1] = "";
-  fuge_operator *op = NULL;
-  fuge_solver *solver = table1_solver(NULL, &op);
-  CHECK_DONE(fuge_set_gap(solver, gap, NULL));
-  CHECK_DONE(fuge_solve(solver));
-  CHECK_DONE(fuge_prove(solver, force_bound, NULL, NULL, proved));
-  CHECK_SAYS(fuge_solver_message(solver, message, sizeof message), FUGE_DONE, message, "the first is point 1");
-  for (int k = 0; k < 2; k++) CHECK(force_bound[k] >= 0.0 && force_bound[k] <= EXACT);
-  CHECK_INT(proved[0], 1);
-  CHECK_INT(proved[1], 0);
-  free_both(&solver, &op);
-}
-
 /* Two points in the same place share the force as they like. */
 static void test_no_proof(void) {
   const double alpha[4] = {1.0, 1.0, 1.0, 1.0}, gap[2] = {0.0, 0.0};
@@ -375,8 +345,6 @@ int main(void) {
   test_null_pointers();
   test_too_early();
   test_proof();
-  test_proof_of_approach();
-  test_proof_of_a_border();
   test_no_proof();
   test_proof_too_early();
   test_whole_history();

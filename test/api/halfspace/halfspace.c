@@ -152,7 +152,7 @@ static void solve_large(const fuge_operator *op, const double *gap, int threads,
   CHECK_DONE(fuge_solve(solver));
   CHECK_DONE(fuge_get_force(solver, result));
   CHECK_DONE(fuge_get_gap(solver, result + LARGE));
-  CHECK_DONE(fuge_get_derivative(solver, NULL, 1.0, result + 2 * LARGE, NULL, NULL));
+  CHECK_DONE(fuge_get_derivatives(solver, NULL, &ONE, result + 2 * LARGE, NULL, NULL));
   fuge_solver_free(&solver);
 }
 
@@ -243,7 +243,7 @@ static void test_grid_problems(void) {
   CHECK_STATUS(fuge_set_gap(solver, bad, NULL), FUGE_ERR_NOT_FINITE);
   CHECK_STATUS(fuge_set_load(solver, -2.0), FUGE_ERR_NO_EQUILIBRIUM);
   CHECK_STATUS(fuge_set_load(solver, NAN), FUGE_ERR_NOT_FINITE);
-  CHECK_DONE(fuge_get_derivative(solver, NULL, 1.0, derivative, NULL, NULL));
+  CHECK_DONE(fuge_get_derivatives(solver, NULL, &ONE, derivative, NULL, NULL));
   for (int k = 0; k < CELLS; k++) {
     CHECK(force[k] > 0.0 ? derivative[k] > 0.0 : derivative[k] == 0.0);
     sum += derivative[k];

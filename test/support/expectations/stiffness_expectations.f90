@@ -8,7 +8,7 @@ module stiffness_expectations
   use fuge_status, only: fuge_info, FUGE_DONE, FUGE_ERR_DOF, FUGE_ERR_NOT_FINITE, FUGE_ERR_NOT_SYMMETRIC, &
     FUGE_ERR_OVERFLOW, FUGE_ERR_SIZE
   use fuge_stiffness_type, only: fuge_stiffness
-  use general_reference, only: infinity
+  use special_numbers, only: infinity
   use small_bodies, only: to_columns
   implicit none
   private
