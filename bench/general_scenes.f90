@@ -172,7 +172,8 @@ contains
   end function problem_of
 
   !> The largest force of a cell: its share of the load where all cells carry it, over the saturation. On the sphere all
-  !> cells of the contact carry it, and 1.2 times the mean is the limit, because Hertz's pressure is at most 1.5 times it.
+  !> cells of the contact carry it, and 1.2 times the mean is the limit, because Hertz's pressure is at most 1.5 times
+  !> it.
   pure function limit_of(surface) result(limit)
     type(bench_surface), intent(in) :: surface
     real(dp) :: limit
