@@ -2,9 +2,9 @@
 module fuge_line_accuracy
   use fuge_gap_function_type, only: fuge_gap_function
   use fuge_kinds, only: dp
-  use fuge_line_refinement, only: begin_search, give_level, is_smooth, line_search, refine_equal_cells, refine_graded_cells
+  use fuge_line_refinement, only: begin_search, give_level, is_smooth_valley, line_search, refine_equal_cells, &
+    refine_graded_cells
   use fuge_line_series, only: give_series, series_suits, solve_by_series
-  use fuge_number_text, only: text
   use fuge_pressing_type, only: check_extent, check_pressing, fuge_pressing, warn_of_accuracy
   use fuge_resolved_contact_type, only: fuge_resolved_contact
   use fuge_smooth_contact_type, only: fuge_smooth_contact
@@ -39,6 +39,7 @@ contains
     type(fuge_info), intent(out) :: info
     type(fuge_resolved_contact) :: found
     type(line_search) :: search
+    type(fuge_smooth_contact) :: series
     logical :: reached
 
     call search%history%begin()
@@ -48,10 +49,13 @@ contains
     call begin_search(gap, left, right, pressing, search, info)
     if (info%failed()) return
     reached = .false.
-    if (series_suits(pressing) .and. is_smooth(search)) &
-      call take_series(gap, left, right, pressing, search, found, reached, info)
+    if (series_suits(pressing) .and. is_smooth_valley(search)) &
+      call solve_by_series(gap, left, right, pressing, series, reached, info)
+    if (reached .and. .not. info%failed()) call give_series(gap, left, right, series, found, info)
     if (info%failed()) return
-    if (.not. reached) then
+    if (reached) then
+      call search%history%give_only_level(size(series%coefficients), found)
+    else
       call refine_cells(gap, pressing, search, info)
       if (info%failed()) return
       call give_level(pressing, search, found)
@@ -81,26 +85,5 @@ contains
     graded%history%levels = search%history%levels
     search = graded
   end subroutine refine_cells
-
-  !> Solve by a series, if there is one; `reached` then.
-  subroutine take_series(gap, left, right, pressing, search, contact, reached, info)
-    class(fuge_gap_function), intent(in) :: gap
-    real(dp), intent(in) :: left, right
-    type(fuge_pressing), intent(in) :: pressing
-    type(line_search), intent(inout) :: search
-    type(fuge_resolved_contact), intent(inout) :: contact
-    logical, intent(out) :: reached
-    type(fuge_info), intent(inout) :: info
-    type(fuge_smooth_contact) :: series
-
-    call solve_by_series(gap, left, right, pressing, series, reached, info)
-    if (info%failed() .or. .not. reached) return
-    call give_series(gap, left, right, series, contact, info)
-    if (info%failed()) return
-    associate (terms => size(series%coefficients))
-      contact%choice = 'a series of '//text(terms)//' term(s): the profile is smooth, in one contact'
-      call search%history%give_only_level(terms, contact)
-    end associate
-  end subroutine take_series
 
 end module fuge_line_accuracy

@@ -127,31 +127,18 @@ contains
     real(dp), intent(in) :: a(:, :), b(:, :)
     real(dp), allocatable :: joined(:, :)
     real(dp) :: all(2, size(a, 2) + size(b, 2)), next(2)
-    integer :: count, j, k
+    integer :: before, behind, k, n
 
     all = reshape([a, b], shape(all))
-    do k = 2, size(all, 2)
-      next = all(:, k)
-      j = k - 1
-      do while (j >= 1)
-        if (all(1, j) <= next(1)) exit
-        all(:, j + 1) = all(:, j)
-        j = j - 1
-      end do
-      all(:, j + 1) = next
-    end do
-    count = 0
+    allocate (joined(2, 0))
     do k = 1, size(all, 2)
-      if (count > 0) then
-        if (all(1, k) <= all(2, count)) then
-          all(2, count) = max(all(2, count), all(2, k))
-          cycle
-        end if
-      end if
-      count = count + 1
-      all(:, count) = all(:, k)
+      next = all(:, k)
+      n = size(joined, 2)
+      before = count(joined(2, :) < next(1))
+      behind = count(joined(1, :) > next(2))
+      if (before + behind < n) next = [min(next(1), joined(1, before + 1)), max(next(2), joined(2, n - behind))]
+      joined = reshape([joined(:, :before), next, joined(:, n - behind + 1:)], [2, before + 1 + behind])
     end do
-    allocate (joined, source=all(:, :count))
   end function joined_intervals
 
   !> About `cells` cells between `left` and `right`, graded towards the ends of the `contacts` (2, k) and towards the
