@@ -48,8 +48,8 @@ module fuge_level_history
     procedure :: last_duration
   end type level_history
 
-  !> Single values may agree by chance, those of two grids more often than those of three, which takes factors of its own;
-  !> and they are not better than rounding.
+  !> Single values may agree by chance, those of two grids more often than those of three, which takes factors of its
+  !> own; and they are not better than rounding.
   real(dp), parameter :: OF_VALUES = 2.0_dp, OF_TWO_VALUES = 8.0_dp, ROUNDING = 16.0_dp*epsilon(1.0_dp)
   !> The error that the difference before leads to is believed in this part, because it may have been one by chance; and
   !> the order is confirmed if the last one leads to no more than so many times that.
@@ -83,8 +83,8 @@ contains
     self%size = [real(dp) ::]
   end subroutine change_method
 
-  !> Note a level: its cells, its method, how many times finer it is than the one before of the same method, 1 if it is the
-  !> first one, the `difference` between these two as share of the load, and its results.
+  !> Note a level: its cells, its method, how many times finer it is than the one before of the same method, 1 if it is
+  !> the first one, the `difference` between these two as share of the load, and its results.
   subroutine add(self, cells, method, growth, difference, approach, largest, size)
     class(level_history), intent(inout) :: self
     integer, intent(in) :: cells, method
@@ -121,7 +121,7 @@ contains
 
     error = huge(error)
     if (size(values) < self%law%fewest) return
-    error = merge(OF_TWO_VALUES, OF_VALUES, size(values) < 3) &
+    error = merge(OF_TWO_VALUES/self%law%doubt, OF_VALUES, size(values) < 3) &
             *estimated_error(abs(values(2:) - values(:size(values) - 1)), self%growth, self%law)
     error = max(error, ROUNDING*abs(values(size(values))))
   end function error_of
@@ -172,8 +172,8 @@ contains
     end associate
   end function last_duration
 
-  !> How many times finer the next grid should be for an error of `accuracy`, at most `largest` times: as the error of the
-  !> last one tells, of the first one `least_error`, but no leap.
+  !> How many times finer the next grid should be for an error of `accuracy`, at most `largest` times: as the error of
+  !> the last one tells, of the first one `least_error`, but no leap.
   pure function next_growth(history, accuracy, largest) result(growth)
     type(level_history), intent(in) :: history
     real(dp), intent(in) :: accuracy, largest
@@ -191,7 +191,8 @@ contains
     growth = min(growth, history%law%leap, largest)
   end function next_growth
 
-  !> A number of cells, `n` or a little more, whose Fourier transforms are quick: a power of two times a number below 16.
+  !> A number of cells, `n` or a little more, whose Fourier transforms are quick: a power of two times a number below
+  !> 16.
   pure function quick_number(n) result(number)
     integer, intent(in) :: n
     integer :: number

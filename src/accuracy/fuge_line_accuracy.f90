@@ -21,10 +21,10 @@ contains
   !>
   !> The interval is the body: where the contact reaches an end, `contact%at_rim` tells so, and the body is taken to end
   !> there. `gap` is the initial gap; `left` < `right`, length; `pressing` as described there. Out: `contact`. A smooth
-  !> profile in one contact is solved by a series; up to eight intervals of contact on cells that are narrow at their
-  !> ends and at kinks and jumps of the gap; all else on equal cells by FFT. Grids become finer until the estimated error
-  !> is reached. A feature of the gap that none of the samples meets, which lie closer than a 512th of the interval, can
-  !> be missed (doc/tutorial_accuracy.md has how often the estimates held).
+  !> profile in one contact is solved by a series; up to eight intervals of contact with kinks or corners, or very small
+  !> ones, on cells that are narrow there and at their ends; all else on equal cells by FFT. Grids become finer until
+  !> the estimated error is reached. A feature of the gap that none of the samples meets, which lie closer than a 512th
+  !> of the interval, can be missed (doc/tutorial_accuracy.md has how often the estimates held).
   !>
   !> `info` is that of the last solve, or FUGE_WARN_ACCURACY with what was reached, if most_cells, most_seconds or the
   !> memory ended the search. Errors, `contact` untouched: FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH unless left < right,

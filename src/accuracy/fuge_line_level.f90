@@ -1,5 +1,5 @@
-!> One grid on the way to a line contact of a wanted error: its gaps, its solution, the error that comes from the ends of
-!> the contacts, and what it may have missed.
+!> One grid on the way to a line contact of a wanted error: its gaps, its solution, the error that comes from the ends
+!> of the contacts, and what it may have missed.
 module fuge_line_level
   use fuge_cell_elements, only: FUGE_MEAN
   use fuge_gap_function_type, only: fuge_gap_function, sample_gap
@@ -31,7 +31,8 @@ module fuge_line_level
     integer :: method = 0
   end type line_level
 
-  !> Cells of a contact that is resolved; and the error that comes from the ends of one that is not, as part of its load.
+  !> Cells of a contact that is resolved; and the error that comes from the ends of one that is not, as part of its
+  !> load.
   integer, parameter :: FEWEST_IN_CONTACT = 4
   real(dp), parameter :: PART_OF_FEW = 0.04_dp
   !> Samples of an open cell that look for contacts which its mean gap hides.
@@ -66,8 +67,8 @@ contains
     if (.not. info%failed()) call solve_level(operator, pressing, level, info)
   end subroutine solve_graded_cells
 
-  !> Solve on the equal cells `level%mesh`, by FFT, with the mean gaps `level%gap` if they are there. Errors: those of the
-  !> gap function, of the operator and of the solver.
+  !> Solve on the equal cells `level%mesh`, by FFT, with the mean gaps `level%gap` if they are there. Errors: those of
+  !> the gap function, of the operator and of the solver.
   subroutine solve_equal_cells(gap, pressing, level, info)
     class(fuge_gap_function), intent(in) :: gap
     type(fuge_pressing), intent(in) :: pressing
@@ -144,8 +145,8 @@ contains
     if (info%status == FUGE_DONE) call report(info, FUGE_DONE, '')
   end subroutine solve_level
 
-  !> Do contacts of several cells carry most of the load? In one or two cells forces are those of the cells, and no finer
-  !> grid would differ from them.
+  !> Do contacts of several cells carry most of the load? In one or two cells forces are those of the cells, and no
+  !> finer grid would differ from them.
   pure function is_resolved(level)
     type(line_level), intent(in) :: level
     logical :: is_resolved
@@ -165,8 +166,8 @@ contains
     end associate
   end function is_resolved
 
-  !> The error of the pressure that comes from the ends of all contacts on equal cells, as share of the load; 0 without a
-  !> load. `is_periodic`: a contact goes on at the other end of the interval.
+  !> The error of the pressure that comes from the ends of all contacts on equal cells, as share of the load; 0 without
+  !> a load. `is_periodic`: a contact goes on at the other end of the interval.
   pure function error_of_ends(force, is_periodic) result(error)
     real(dp), intent(in) :: force(:)
     logical, intent(in) :: is_periodic
@@ -191,12 +192,12 @@ contains
     if (error > 0.0_dp) error = error/sum(force)
   end function error_of_ends
 
-  !> The force that is in the wrong place near an end of a contact whose last three cells carry `force` (3), from the end
-  !> on.
+  !> The force that is in the wrong place near an end of a contact whose last three cells carry `force` (3), from the
+  !> end on.
   !>
-  !> The pressure rises there like a root, and where in a cell it begins decides the error. The ratio of the first force to
-  !> the second one tells that; the part of the three forces over that ratio was measured on cylinders. At the end of a
-  !> body it is a corner; elsewhere pressures that do not rise so over three cells are not resolved.
+  !> The pressure rises there like a root, and where in a cell it begins decides the error. The ratio of the first force
+  !> to the second one tells that; the part of the three forces over that ratio was measured on cylinders. At the end of
+  !> a body it is a corner; elsewhere pressures that do not rise so over three cells are not resolved.
   pure function error_of_end(force, is_rim) result(error)
     real(dp), intent(in) :: force(3)
     logical, intent(in) :: is_rim
@@ -211,7 +212,8 @@ contains
     else
       error = min(OF_CORNER, LEAST + SLOPE*(ratio - BEST_RATIO))
     end if
-    if (.not. is_rim .and. (force(2) > force(3) .or. .not. error < OF_CORNER .and. ratio > BEST_RATIO)) error = NOT_RESOLVED
+    if (.not. is_rim .and. (force(2) > force(3) .or. (ratio > BEST_RATIO .and. .not. error < OF_CORNER))) &
+      error = NOT_RESOLVED
     error = error*sum(force)
   end function error_of_end
 

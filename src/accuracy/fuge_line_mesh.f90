@@ -24,7 +24,7 @@ module fuge_line_mesh
   end type mesh_part
 
   !> Parts of the cells of an open part, and of the zone of an open part beside a contact, relative to a part in contact.
-  real(dp), parameter :: OPEN_WEIGHT = 0.5_dp, ZONE_WEIGHT = 0.25_dp
+  real(dp), parameter :: OPEN_WEIGHT = 0.2_dp, ZONE_WEIGHT = 0.2_dp
   !> Length of that zone, relative to that of the contact, and at most to that of the open part.
   real(dp), parameter :: ZONE_LENGTH = 0.15_dp, LARGEST_ZONE = 0.4_dp
   !> The same beside a part that has a corner or a kink at its other end, because how far a contact reaches beyond a kink

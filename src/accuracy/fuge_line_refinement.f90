@@ -32,9 +32,9 @@ module fuge_line_refinement
     type(line_level), private :: first, level
     logical :: misses = .false.
     logical, private :: is_settled = .false.
-    !> Intervals of contact, (2, k), those expected where one was missed included; how far their ends moved with the last
-    !> solve on graded cells, (2, k), and which ones have turned back; and how far the ends of those of the last level are
-    !> from the ones before, huge if their numbers differ.
+    !> Intervals of contact, (2, k), those expected where one was missed included; how far their ends moved with the
+    !> last solve on graded cells, (2, k), and which ones have turned back; and how far the ends of those of the last
+    !> level are from the ones before, huge if their numbers differ.
     real(dp), allocatable, private :: contacts(:, :), shift(:, :)
     logical, allocatable, private :: turned(:, :)
     real(dp), private :: edge_change = huge(1.0_dp)
@@ -44,19 +44,18 @@ module fuge_line_refinement
 
   !> Cells of the first grids, equal ones and graded ones.
   integer, parameter :: FIRST_EQUAL = 128, FIRST_GRADED = 32
-  !> More graded cells take longer by their matrix than equal ones by FFT; where there are neither corners nor kinks that
-  !> is so unless very many of these are needed; and more intervals of contact leave too few cells to each.
+  !> More graded cells take longer by their matrix than equal ones by FFT; where there are neither corners nor kinks
+  !> that is so unless very many of these are needed; and more intervals of contact leave too few cells to each.
   integer, parameter :: MOST_GRADED = 1900, MANY_EQUAL = 16384, MOST_CONTACTS = 8
   !> Most solves on as many graded cells, until the ends of a contact move by no more than this part of its length,
   !> or of the distance from a kink; with more cells than those in inverse proportion to their number.
   integer, parameter :: MOST_REPEATS = 6
   real(dp), parameter :: SETTLED = 0.02_dp, SETTLED_CELLS = 64.0_dp
-  !> Further factor of the error where they have not settled; and so many differences tell that an error needs too many
-  !> cells, because first ones are too large by far.
+  !> Further factor of the error where they have not settled.
   real(dp), parameter :: NOT_SETTLED = 2.0_dp
-  integer, parameter :: FEWEST_TO_DESPAIR = 3
-  !> Errors of graded cells, also where the only corners are those at the ends of the interval, and the gap may be rough;
-  !> and of equal cells, where the contact ends smoothly, at the end of a body, and where it has kinks or jumps of the gap.
+  !> Errors of graded cells, also where the only corners are those at the ends of the interval, and the gap may be
+  !> rough; and of equal cells, where the contact ends smoothly, at the end of a body, and where it has kinks or jumps
+  !> of the gap.
   type(error_law), parameter :: GRADED = error_law(order=2.0_dp, safety=2.0_dp, doubt=2.0_dp, leap=2.25_dp), &
     GRADED_AT_RIM = error_law(order=2.0_dp, safety=2.5_dp, doubt=2.0_dp, leap=1.5_dp), &
     SMOOTH = error_law(order=1.5_dp, safety=1.75_dp, likeness=0.5_dp, step=1.2_dp, leap=16.0_dp), &
@@ -71,8 +70,8 @@ module fuge_line_refinement
   integer, parameter :: DEFAULT_MOST_CELLS = 2**20
   !> How many times finer a grid is at least than one that missed something.
   real(dp), parameter :: LEAST_AFTER_MISS = 2.0_dp
-  !> With so many times more equal cells a solve takes so much longer yet; and with so many times more graded ones as many
-  !> times as long as this power of it.
+  !> With so many times more equal cells a solve takes so much longer yet; and with so many times more graded ones as
+  !> many times as long as this power of it.
   real(dp), parameter :: LONGER_EQUAL = 1.2_dp, LONGER_GRADED = 2.3_dp
 
 contains
@@ -91,14 +90,15 @@ contains
     call find_features(gap, left, right, search%features, search%is_rough, search%samples, info)
   end subroutine begin_search
 
-  !> Has the gap neither kinks nor jumps, and does it fall to one lowest place and rise again? Otherwise there may be several
-  !> contacts, and finding that out by series takes longer than cells do.
+  !> Has the gap neither kinks nor jumps, and does it fall to one lowest place and rise again? Otherwise there may be
+  !> several contacts, and finding that out by series takes longer than cells do.
   pure function is_smooth_valley(search) result(is_one)
     type(line_search), intent(in) :: search
     logical :: is_one
 
+    is_one = size(search%features) == 0 .and. .not. search%is_rough
     associate (height => search%samples, lowest => minloc(search%samples, dim=1))
-      is_one = size(search%features) == 0 .and. .not. search%is_rough .and. all(height(2:lowest) <= height(:lowest - 1)) &
+      is_one = is_one .and. all(height(2:lowest) <= height(:lowest - 1)) &
                .and. all(height(lowest + 1:) >= height(lowest:FIRST_SAMPLES - 1))
     end associate
   end function is_smooth_valley
@@ -122,8 +122,8 @@ contains
     call forget_shifts(search, 0)
   end subroutine look_first
 
-  !> Do graded cells suit better than equal ones? They do at kinks and corners, and where the contact is small beside the
-  !> interval, for two half-planes without too many contacts.
+  !> Do graded cells suit better than equal ones? They do at kinks and corners, and where the contact is small beside
+  !> the interval, for two half-planes without too many contacts.
   pure function graded_cells_suit(pressing, search) result(suit)
     type(fuge_pressing), intent(in) :: pressing
     type(line_search), intent(in) :: search
@@ -189,15 +189,13 @@ contains
       call add_level(search, before, follows)
       if (.not. search%misses) done = search%history%pressure_error() <= pressing%accuracy
       if (done) return
-      if (size(search%history%differences) >= FEWEST_TO_DESPAIR) then
-        if (cells*sqrt(search%history%pressure_error()/pressing%accuracy) > 2.0_dp*most) return
-      end if
       growth = next_growth(search%history, pressing%accuracy, huge(1.0_dp))
       call watch_clock(pressing, growth**LONGER_GRADED, search)
       done = allocated(search%obstacle)
       if (done) return
       ! Where many parts have their fewest cells, there are more than those asked for.
-      cells = growth*max(cells, real(size(search%level%mesh%x), dp))
+      cells = max(cells, real(size(search%level%mesh%x), dp))
+      cells = merge(most, growth*cells, growth*cells > most .and. most > law%step*cells)
       follows = .true.
     end do
   end subroutine refine_graded_cells
@@ -270,8 +268,8 @@ contains
     search%turned = spread(spread(.false., 1, 2), 2, contacts)
   end subroutine forget_shifts
 
-  !> The length over which the pressure varies at each end of the contacts `intervals`, (2, k), (2, k): that of the contact,
-  !> or the distance from a kink if that is less.
+  !> The length over which the pressure varies at each end of the contacts `intervals`, (2, k), (2, k): that of the
+  !> contact, or the distance from a kink if that is less.
   pure function lengths_at_ends(features, intervals) result(lengths)
     type(gap_feature), intent(in) :: features(:)
     real(dp), intent(in) :: intervals(:, :)
@@ -301,7 +299,7 @@ contains
     do
       before = search%level
       search%level = next
-      call judge_equal_cells(pressing, search)
+      call judge_equal_cells(pressing, before%mesh%width(1), search)
       call add_level(search, before, size(search%history%approach) > 0)
       if (search%history%pressure_error() <= pressing%accuracy) then
         call look_at_last(gap, search, info)
@@ -329,16 +327,19 @@ contains
     end do
   end subroutine refine_equal_cells
 
-  !> Where are the contacts of the last level of equal cells, and how regular are the errors?
-  subroutine judge_equal_cells(pressing, search)
+  !> Where are the contacts of the last level of equal cells, and how regular are the errors? `width_before` is that of
+  !> the cells of the level before.
+  subroutine judge_equal_cells(pressing, width_before, search)
     type(fuge_pressing), intent(in) :: pressing
+    real(dp), intent(in) :: width_before
     type(line_search), intent(inout) :: search
     real(dp), allocatable :: now(:, :)
 
     allocate (now, source=contact_intervals(search%level%mesh, search%level%solution%force))
     search%edge_change = huge(1.0_dp)
+    ! Ends are known to a part of a cell: what they moved tells more of the grid before.
     if (size(search%history%approach) > 0 .and. size(now, 2) == size(search%contacts, 2)) &
-      search%edge_change = maxval([0.0_dp, abs(now - search%contacts)])
+      search%edge_change = maxval([0.0_dp, abs(now - search%contacts)])*(search%level%mesh%width(1)/width_before)
     search%contacts = now
     search%misses = .not. is_resolved(search%level)
     search%history%law = SMOOTH

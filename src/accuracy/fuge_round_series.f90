@@ -131,8 +131,8 @@ contains
     has_tip = status /= FUGE_DONE .or. abs(slope(1))*profile%upper > NO_TIP*(height(2) - height(1))
   end function has_tip
 
-  !> Is the gap `height` (n) at the distances `r` (n) from the axis that of the profile, `is_same`, wherever this reaches?
-  !> `lowest` is that of the gaps farther from the axis, huge if there are none.
+  !> Is the gap `height` (n) at the distances `r` (n) from the axis that of the profile, `is_same`, wherever this
+  !> reaches? `lowest` is that of the gaps farther from the axis, huge if there are none.
   subroutine look_everywhere(r, height, profile, accuracy, is_same, lowest)
     real(dp), intent(in) :: r(:), height(:), accuracy
     type(fuge_sampled_profile), intent(in) :: profile
@@ -192,8 +192,8 @@ contains
     contact%size_error = 2.0_dp*max(LEAST_ERROR, series%radius_error)*contact%size
   end subroutine give_round_series
 
-  !> Forces of the cells: sums of pressures, of more places in cells that the rim of the contact crosses; and the largest
-  !> pressure.
+  !> Forces of the cells: sums of pressures, of more places in cells that the rim of the contact crosses; and the
+  !> largest pressure.
   subroutine integrate_pressure(series, axis, contact)
     type(fuge_round_contact), intent(in) :: series
     real(dp), intent(in) :: axis(2)

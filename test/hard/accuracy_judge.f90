@@ -113,8 +113,9 @@ contains
         .or. fine%pressure_error > 0.5_dp*verdict%contact%pressure_error) return
     associate (contact => verdict%contact)
       ! Straight lines between borders of graded cells would have errors like those of the answer.
-      verdict%error = min(verdict%error, line_difference(borders(line_mesh(contact%x, contact%width_x)), contact%force, &
-                                                         borders(line_mesh(fine%x, fine%width_x)), fine%force)/fine%load)
+      verdict%error = min(verdict%error, line_difference( &
+        borders(line_mesh(contact%x, contact%width_x)), contact%force, borders(line_mesh(fine%x, fine%width_x)), &
+        fine%force)/fine%load)
       verdict%approach_error = min(verdict%approach_error, abs(contact%approach - fine%approach))
     end associate
   end subroutine compare_with_solve
@@ -159,8 +160,8 @@ contains
     coarser = solution
   end subroutine compare_with_cells
 
-  !> Subtract from the errors those that a `fine` reference may have itself, after a `coarser` one. At a corner that of the
-  !> pressure falls with the root of the width, and that of the approach in proportion to it.
+  !> Subtract from the errors those that a `fine` reference may have itself, after a `coarser` one. At a corner that of
+  !> the pressure falls with the root of the width, and that of the approach in proportion to it.
   pure subroutine leave_out_own_errors(fine, coarser, verdict)
     type(fuge_solution), intent(in) :: fine, coarser
     type(accuracy_verdict), intent(inout) :: verdict
