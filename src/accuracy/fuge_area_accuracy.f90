@@ -167,7 +167,7 @@ contains
     type(area_search), intent(inout) :: search
 
     search%history%law = SMOOTH
-    search%history%least_error = PART_OF_RIM*load_at_rim(search%level)
+    search%history%least_error = PART_OF_RIM*load_at_rim(search%level, pressing%boundary == FUGE_FREE)
     if (any(rim_contact(pressing, search%level))) search%history%law = AT_RIM
     search%jumps = jumps_at_rim(search%level)
     if (.not. search%jumps) return

@@ -136,7 +136,7 @@ contains
     integer :: i, j
 
     misses = .false.
-    allocate (is_apart, source=count_around(level%cells, level%solution%force > 0.0_dp) == 0)
+    allocate (is_apart, source=count_around(level%cells, level%solution%force > 0.0_dp, .false.) == 0)
     allocate (moved, source=level%solution%gap - level%gap)
     allocate (slope_x(size(moved)), slope_y(size(moved)), height(size(moved)))
     least = -NEGATIVE*max(0.0_dp, maxval(-moved) - minval(level%gap))
@@ -154,25 +154,27 @@ contains
   end subroutine misses_contact
 
   !> The share of the load in cells that have an open one beside them, along a side or at a corner; 0 without a load.
-  pure function load_at_rim(level) result(share)
+  !> `ends`: the rim of the rectangle is one of the body, with nothing beside it.
+  pure function load_at_rim(level, ends) result(share)
     type(area_level), intent(in) :: level
+    logical, intent(in) :: ends
     real(dp) :: share
 
     share = 0.0_dp
     associate (force => level%solution%force)
       if (.not. any(force > 0.0_dp)) return
-      share = sum(force, mask=count_around(level%cells, .not. force > 0.0_dp) > 0)/sum(force)
+      share = sum(force, mask=count_around(level%cells, .not. force > 0.0_dp, ends) > 0)/sum(force)
     end associate
   end function load_at_rim
 
-  !> How many of a cell and those around it are marked, (n).
-  pure function count_around(cells, marked) result(number)
+  !> How many of a cell and those around it are marked, (n); `beyond`: those beyond the rim are so.
+  pure function count_around(cells, marked, beyond) result(number)
     integer, intent(in) :: cells(2)
-    logical, intent(in) :: marked(:)
+    logical, intent(in) :: marked(:), beyond
     integer :: number(size(marked))
     integer :: along(0:cells(1) + 1, 0:cells(2) + 1)
 
-    along = 0
+    along = merge(1, 0, beyond)
     associate (nx => cells(1), ny => cells(2))
       along(1:nx, 1:ny) = reshape(merge(1, 0, marked), cells)
       along(1:nx, :) = along(0:nx - 1, :) + along(1:nx, :) + along(2:, :)

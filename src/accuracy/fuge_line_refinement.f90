@@ -171,10 +171,10 @@ contains
 
     done = .false.
     call look_first(gap, pressing, search, info)
+    ! Beside a kink or a jump these cells may miss a contact.
+    if (size(search%features) > 0 .and. .not. info%failed()) call see_contacts(gap, search, info)
     if (info%failed()) return
     if (.not. graded_cells_suit(pressing, search)) return
-    call see_contacts(gap, search, info)
-    if (info%failed()) return
     law = merge(GRADED, GRADED_AT_RIM, size(search%features) > 0)
     call search%history%change_method(law)
     most = real(min(MOST_GRADED, pressing%cells_allowed(DEFAULT_MOST_CELLS)), dp)
