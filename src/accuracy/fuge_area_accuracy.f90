@@ -253,7 +253,7 @@ contains
     type(fuge_pressing), intent(in) :: pressing
     type(area_search), intent(inout) :: search
     type(fuge_resolved_contact), intent(inout) :: contact
-    real(dp) :: width(2)
+    real(dp) :: width(2), modulus
 
     associate (level => search%level, solution => search%level%solution)
       width = level%widths()
@@ -276,6 +276,14 @@ contains
     call move_alloc(search%level%solution%force, contact%force)
     call move_alloc(search%level%solution%gap, contact%gap)
     call search%history%give_errors(contact)
+    if (allocated(pressing%load) .and. contact%size > 0.0_dp) then
+      modulus = pressing%e_star
+      if (allocated(pressing%layers)) modulus = pressing%layers%e_star()
+      ! The approach is stationary about the exact pressure, but two grids may agree by chance.
+      contact%approach_error = max(contact%approach_error, contact%pressure_error**2*contact%load &
+                                                           /(modulus*sqrt(contact%size)))
+      contact%levels(size(contact%levels))%approach_error = contact%approach_error
+    end if
     if (search%misses) contact%pressure_error = 1.0_dp
   end subroutine give_level
 

@@ -48,9 +48,10 @@ module fuge_level_history
     procedure :: last_duration
   end type level_history
 
-  !> Single values may agree by chance, those of two grids more often than those of three, which takes factors of its
-  !> own; and they are not better than rounding.
-  real(dp), parameter :: OF_VALUES = 2.0_dp, OF_TWO_VALUES = 8.0_dp, ROUNDING = 16.0_dp*epsilon(1.0_dp)
+  !> Single values may agree by chance, those of two grids more often than those of three, and the approach, whose errors
+  !> have either sign, most often, which takes factors of its own; and they are not better than rounding.
+  real(dp), parameter :: OF_VALUES = 2.0_dp, OF_TWO_VALUES = 6.0_dp, OF_TWO_APPROACHES = 12.0_dp
+  real(dp), parameter :: ROUNDING = 16.0_dp*epsilon(1.0_dp)
   !> The error that the difference before leads to is believed in this part, because it may have been one by chance; and
   !> the order is confirmed if the last one leads to no more than so many times that.
   real(dp), parameter :: PART_OF_EARLIER = 0.7_dp, CONFIRMED = 1.5_dp
@@ -99,13 +100,12 @@ contains
     level%cells = cells
     level%method = method
     level%pressure_error = min(1.0_dp, self%pressure_error())
-    level%approach_error = error_of(self, self%approach)
+    level%approach_error = error_of(self, self%approach, OF_TWO_APPROACHES)
     level%seconds = self%seconds()
     self%levels = [self%levels, level]
   end subroutine add
 
-  !> The estimated error of the pressure of the last level; huge before there are enough of a
-  !> method.
+  !> The estimated error of the pressure of the last level; huge before there are enough of a method.
   pure function pressure_error(self) result(error)
     class(level_history), intent(in) :: self
     real(dp) :: error
@@ -113,15 +113,16 @@ contains
     error = max(self%least_error, estimated_error(self%differences, self%growth, self%law))
   end function pressure_error
 
-  !> The estimated error of the last of the `values` of the levels of the last method.
-  pure function error_of(self, values) result(error)
+  !> The estimated error of the last of the `values` of the levels of the last method; `of_two` is the factor if there are
+  !> only two.
+  pure function error_of(self, values, of_two) result(error)
     class(level_history), intent(in) :: self
-    real(dp), intent(in) :: values(:)
+    real(dp), intent(in) :: values(:), of_two
     real(dp) :: error
 
     error = huge(error)
     if (size(values) < self%law%fewest) return
-    error = merge(OF_TWO_VALUES/self%law%doubt, OF_VALUES, size(values) < 3) &
+    error = merge(of_two/self%law%doubt, OF_VALUES, size(values) < 3) &
             *estimated_error(abs(values(2:) - values(:size(values) - 1)), self%growth, self%law)
     error = max(error, ROUNDING*abs(values(size(values))))
   end function error_of
@@ -133,9 +134,9 @@ contains
 
     contact%levels = self%levels
     contact%pressure_error = min(1.0_dp, self%pressure_error())
-    contact%approach_error = error_of(self, self%approach)
-    contact%largest_error = error_of(self, self%largest)
-    contact%size_error = error_of(self, self%size)
+    contact%approach_error = error_of(self, self%approach, OF_TWO_APPROACHES)
+    contact%largest_error = error_of(self, self%largest, OF_TWO_VALUES)
+    contact%size_error = error_of(self, self%size, OF_TWO_VALUES)
   end subroutine give_errors
 
   !> Note a series of `terms` terms, whose errors `contact` knows, and give it as the only level.
@@ -172,8 +173,8 @@ contains
     end associate
   end function last_duration
 
-  !> How many times finer the next grid should be for an error of `accuracy`, at most `largest` times: as the error of
-  !> the last one tells, of the first one `least_error`, but no leap.
+  !> How many times finer the next grid should be for an error of `accuracy`, as the error of the last one tells, of the
+  !> first one `least_error`: as far as the law lets it leap, and at most `largest` times.
   pure function next_growth(history, accuracy, largest) result(growth)
     type(level_history), intent(in) :: history
     real(dp), intent(in) :: accuracy, largest
@@ -191,8 +192,7 @@ contains
     growth = min(growth, history%law%leap, largest)
   end function next_growth
 
-  !> A number of cells, `n` or a little more, whose Fourier transforms are quick: a power of two times a number below
-  !> 16.
+  !> A number of cells, `n` or a little more, whose Fourier transforms are quick: a power of two times one up to 16.
   pure function quick_number(n) result(number)
     integer, intent(in) :: n
     integer :: number

@@ -68,8 +68,8 @@ module fuge_line_refinement
   !> Finer equal cells see for themselves what coarser ones miss.
   integer, parameter :: MOST_LOOKED_BETWEEN = 4096
   integer, parameter :: DEFAULT_MOST_CELLS = 2**20
-  !> How many times finer a grid is at least than one that missed something.
-  real(dp), parameter :: LEAST_AFTER_MISS = 2.0_dp
+  !> How many times finer a grid is at least, and than one that missed something.
+  real(dp), parameter :: LEAST_GROWTH = 1.1_dp, LEAST_AFTER_MISS = 2.0_dp
   !> With so many times more equal cells a solve takes so much longer yet; and with so many times more graded ones as
   !> many times as long as this power of it.
   real(dp), parameter :: LONGER_EQUAL = 1.2_dp, LONGER_GRADED = 2.3_dp
@@ -310,7 +310,7 @@ contains
       if (search%misses) growth = min(max(growth, LEAST_AFTER_MISS), real(most, dp)/real(cells, dp))
       call watch_clock(pressing, LONGER_EQUAL*growth, search)
       if (allocated(search%obstacle)) return
-      if (growth <= 1.0_dp) then
+      if (growth < LEAST_GROWTH) then
         search%obstacle = 'more than '//text(most)//' cells are not allowed (most_cells)'
         return
       end if
@@ -373,7 +373,7 @@ contains
     growth = 1.0_dp
     associate (level => search%level, contacts => search%contacts)
       load = sum(level%solution%force)
-      if (follows) growth = real(size(level%mesh%x), dp)/real(size(before%mesh%x), dp)
+      if (follows) growth = max(LEAST_GROWTH, real(size(level%mesh%x), dp)/real(size(before%mesh%x), dp))
       if (follows .and. load > 0.0_dp) difference = line_difference(borders(before%mesh), before%solution%force, &
                                                                     borders(level%mesh), level%solution%force)/load
       call search%history%add(size(level%mesh%x), level%method, growth, difference, level%solution%motion(1), &
