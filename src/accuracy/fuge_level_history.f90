@@ -48,8 +48,8 @@ module fuge_level_history
     procedure :: last_duration
   end type level_history
 
-  !> Single values may agree by chance, those of two grids more often than those of three, and the approach, whose errors
-  !> have either sign, most often, which takes factors of its own; and they are not better than rounding.
+  !> Single values may agree by chance, those of two grids more often than those of three, and the approach, whose
+  !> errors have either sign, most often, which takes factors of its own; and they are not better than rounding.
   real(dp), parameter :: OF_VALUES = 2.0_dp, OF_TWO_VALUES = 6.0_dp, OF_TWO_APPROACHES = 12.0_dp
   real(dp), parameter :: ROUNDING = 16.0_dp*epsilon(1.0_dp)
   !> The error that the difference before leads to is believed in this part, because it may have been one by chance; and
@@ -113,8 +113,8 @@ contains
     error = max(self%least_error, estimated_error(self%differences, self%growth, self%law))
   end function pressure_error
 
-  !> The estimated error of the last of the `values` of the levels of the last method; `of_two` is the factor if there are
-  !> only two.
+  !> The estimated error of the last of the `values` of the levels of the last method; `of_two` is the factor if there
+  !> are only two.
   pure function error_of(self, values, of_two) result(error)
     class(level_history), intent(in) :: self
     real(dp), intent(in) :: values(:), of_two
