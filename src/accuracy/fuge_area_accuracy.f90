@@ -1,10 +1,10 @@
 !> An area of contact to a wanted error.
 module fuge_area_accuracy
-  use fuge_area_level, only: area_level, jumps_at_rim, misses_contact, solve_area_level
+  use fuge_area_level, only: area_level, jumps_at_rim, load_at_rim, misses_contact, solve_area_level
   use fuge_cell_elements, only: FUGE_FREE
   use fuge_gap_function_type, only: fuge_gap_function
   use fuge_kinds, only: dp
-  use fuge_level_history, only: area_difference, level_history, next_growth, ORDER_AT_JUMPS, SMOOTH_ORDER
+  use fuge_level_history, only: area_difference, error_law, level_history, next_growth, quick_number
   use fuge_number_text, only: text
   use fuge_pressing_type, only: check_extent, check_pressing, fuge_pressing, warn_of_accuracy
   use fuge_resolved_contact_type, only: fuge_resolved_contact, FUGE_BY_EQUAL_CELLS
@@ -32,14 +32,19 @@ module fuge_area_accuracy
   integer, parameter :: FIRST_CELLS = 32, FEWEST_CELLS = 8
   !> Cells of a contact that is resolved.
   integer, parameter :: FEWEST_IN_CONTACT = 16
-  !> Factors of the errors, also of those with jumps of the gap at the rim of the contact.
-  real(dp), parameter :: SAFETY = 2.5_dp, SAFETY_JUMPS = 4.4_dp
+  !> Errors where the contact ends smoothly, at the end of a body, and at jumps of the gap.
+  type(error_law), parameter :: &
+    SMOOTH = error_law(order=1.25_dp, safety=1.25_dp, likeness=0.5_dp, step=1.2_dp, leap=8.0_dp), &
+    AT_RIM = error_law(order=0.75_dp, safety=1.1_dp, leap=2.5_dp), &
+    AT_JUMPS = error_law(order=0.5_dp, safety=1.25_dp, fewest=3)
+  !> The error comes from the rim of the contact, and is about this part of the load in the cells there; at jumps that.
+  real(dp), parameter :: PART_OF_RIM = 0.17_dp, PART_AT_JUMPS = 0.45_dp
   !> Finer cells see for themselves what coarser ones miss.
   integer, parameter :: MOST_LOOKED_BETWEEN = 2**14
   integer, parameter :: DEFAULT_MOST_CELLS = 2**22
-  !> How many times finer a grid may be than the one before, at most and at least, and how much longer a solve takes
-  !> with more cells, in their numbers.
-  real(dp), parameter :: LARGEST_GROWTH = 2.0_dp, LEAST_GROWTH = 1.2_dp, LONGER = 1.25_dp
+  !> How many times finer a grid is at least, and than one that missed something; and how much longer a solve takes with
+  !> more cells, in their numbers.
+  real(dp), parameter :: LEAST_GROWTH = 1.1_dp, LEAST_AFTER_MISS = 2.0_dp, LONGER = 1.25_dp
 
 contains
 
@@ -129,8 +134,7 @@ contains
     type(fuge_info) :: trial
     real(dp) :: growth
 
-    growth = LARGEST_GROWTH
-    call search%history%change_method(SAFETY)
+    call search%history%change_method(SMOOTH)
     do
       call solve_area_level(gap, pressing, search%level, trial)
       if (trial%status == FUGE_ERR_MEMORY .and. allocated(before%gap)) then
@@ -142,18 +146,19 @@ contains
       info = trial
       if (info%failed()) return
       call judge_level(pressing, search)
-      call add_level(search, before, growth)
+      call add_level(search, before)
       if (search%history%pressure_error() <= pressing%accuracy) then
         call look_at_last(gap, pressing, search, info)
         if (info%failed() .or. .not. search%misses) return
       end if
-      growth = next_growth(search%history, pressing%accuracy, LARGEST_GROWTH)
+      growth = next_growth(search%history, pressing%accuracy, search%history%law%leap)
+      if (search%misses) growth = max(growth, LEAST_AFTER_MISS)
       growth = min(growth, sqrt(real(pressing%cells_allowed(DEFAULT_MOST_CELLS), dp) &
                                 /product(real(search%level%cells, dp))))
       call see_obstacles(pressing, growth, search)
       if (allocated(search%obstacle)) return
       before = search%level
-      search%level%cells = finer(search%level%cells, growth)
+      search%level%cells = finer(search%level%cells, growth, pressing%cells_allowed(DEFAULT_MOST_CELLS))
     end do
   end subroutine refine
 
@@ -162,12 +167,13 @@ contains
     type(fuge_pressing), intent(in) :: pressing
     type(area_search), intent(inout) :: search
 
+    search%history%law = SMOOTH
+    search%history%least_error = PART_OF_RIM*load_at_rim(search%level, pressing%boundary == FUGE_FREE)
+    if (any(rim_contact(pressing, search%level))) search%history%law = AT_RIM
     search%jumps = jumps_at_rim(search%level)
-    if (search%jumps .or. any(rim_contact(pressing, search%level))) then
-      call search%history%expect(SAFETY_JUMPS, ORDER_AT_JUMPS)
-    else
-      call search%history%expect(SAFETY, SMOOTH_ORDER)
-    end if
+    if (.not. search%jumps) return
+    search%history%law = AT_JUMPS
+    search%history%least_error = search%history%least_error*(PART_AT_JUMPS/PART_OF_RIM)
   end subroutine judge_level
 
   !> Does a level that is to be the last one miss a contact, or not resolve it? Errors: those of the gap function.
@@ -186,26 +192,20 @@ contains
   end subroutine look_at_last
 
   !> Note the last level, with the difference from the one `before`, if there is one.
-  subroutine add_level(search, before, growth)
+  subroutine add_level(search, before)
     type(area_search), intent(inout) :: search
     type(area_level), intent(in) :: before
-    real(dp), intent(in) :: growth
-    real(dp) :: load, area, largest, difference
+    real(dp) :: load, difference, growth
 
-    associate (level => search%level, force => search%level%solution%force)
+    difference = 0.0_dp
+    growth = 1.0_dp
+    associate (level => search%level, force => search%level%solution%force, cell => product(search%level%widths()))
       load = sum(force)
-      area = product(level%widths())
-      largest = maxval(force)/area
-      area = area*real(count(force > 0.0_dp), dp)
-      if (allocated(before%gap)) then
-        difference = 0.0_dp
-        if (load > 0.0_dp) difference = area_difference(reshape(before%solution%force, before%cells), &
-                                                        reshape(force, level%cells))/load
-        call search%history%add(size(force), FUGE_BY_EQUAL_CELLS, level%solution%motion(1), largest, area, difference, &
-                                growth)
-      else
-        call search%history%add(size(force), FUGE_BY_EQUAL_CELLS, level%solution%motion(1), largest, area)
-      end if
+      if (allocated(before%gap)) growth = sqrt(real(size(force), dp)/real(size(before%gap), dp))
+      if (allocated(before%gap) .and. load > 0.0_dp) &
+        difference = area_difference(reshape(before%solution%force, before%cells), reshape(force, level%cells))/load
+      call search%history%add(size(force), FUGE_BY_EQUAL_CELLS, growth, difference, level%solution%motion(1), &
+                              maxval(force)/cell, cell*real(count(force > 0.0_dp), dp))
     end associate
   end subroutine add_level
 
@@ -215,7 +215,7 @@ contains
     real(dp), intent(in) :: growth
     type(area_search), intent(inout) :: search
 
-    if (growth < LEAST_GROWTH .or. all(finer(search%level%cells, growth) == search%level%cells)) then
+    if (growth < LEAST_GROWTH .or. all(int(growth*real(search%level%cells, dp)) <= search%level%cells)) then
       search%obstacle = 'more than '//text(pressing%cells_allowed(DEFAULT_MOST_CELLS)) &
                         //' cells are not allowed (most_cells)'
     else if (search%history%seconds() + LONGER*growth**2*search%history%last_duration() > pressing%most_seconds) then
@@ -223,13 +223,16 @@ contains
     end if
   end subroutine see_obstacles
 
-  !> Numbers of cells `growth` times finer, no more than that.
-  pure function finer(cells, growth)
-    integer, intent(in) :: cells(2)
+  !> Numbers of cells that are `growth` times finer, or a little more where `most` allows it.
+  pure function finer(cells, growth, most)
+    integer, intent(in) :: cells(2), most
     real(dp), intent(in) :: growth
     integer :: finer(2)
 
     finer = max(cells, int(growth*real(cells, dp)))
+    associate (quick => [quick_number(finer(1)), quick_number(finer(2))])
+      if (product(real(quick, dp)) <= real(most, dp)) finer = quick
+    end associate
   end function finer
 
   !> At which sides of a free rectangle, (4), left, right, low y, high y, is there contact?
@@ -237,17 +240,12 @@ contains
     type(fuge_pressing), intent(in) :: pressing
     type(area_level), intent(in) :: level
     logical :: touches(4)
-    integer :: nx, n
 
     touches = .false.
     if (pressing%boundary /= FUGE_FREE) return
-    nx = level%cells(1)
-    n = product(level%cells)
-    associate (force => level%solution%force)
-      touches(1) = any(force(1:n:nx) > 0.0_dp)
-      touches(2) = any(force(nx:n:nx) > 0.0_dp)
-      touches(3) = any(force(:nx) > 0.0_dp)
-      touches(4) = any(force(n - nx + 1:) > 0.0_dp)
+    associate (force => level%solution%force, nx => level%cells(1), n => product(level%cells))
+      touches = [any(force(1:n:nx) > 0.0_dp), any(force(nx:n:nx) > 0.0_dp), any(force(:nx) > 0.0_dp), &
+                 any(force(n - nx + 1:) > 0.0_dp)]
     end associate
   end function rim_contact
 
@@ -256,7 +254,7 @@ contains
     type(fuge_pressing), intent(in) :: pressing
     type(area_search), intent(inout) :: search
     type(fuge_resolved_contact), intent(inout) :: contact
-    real(dp) :: width(2)
+    real(dp) :: width(2), modulus
 
     associate (level => search%level, solution => search%level%solution)
       width = level%widths()
@@ -279,6 +277,14 @@ contains
     call move_alloc(search%level%solution%force, contact%force)
     call move_alloc(search%level%solution%gap, contact%gap)
     call search%history%give_errors(contact)
+    if (allocated(pressing%load) .and. contact%size > 0.0_dp) then
+      modulus = pressing%e_star
+      if (allocated(pressing%layers)) modulus = pressing%layers%e_star()
+      ! The approach is stationary about the exact pressure, but two grids may agree by chance.
+      contact%approach_error = max(contact%approach_error, contact%pressure_error**2*contact%load &
+                                                           /(modulus*sqrt(contact%size)))
+      contact%levels(size(contact%levels))%approach_error = contact%approach_error
+    end if
     if (search%misses) contact%pressure_error = 1.0_dp
   end subroutine give_level
 

@@ -1,7 +1,7 @@
 !> One grid on the way to an area of contact of a wanted error.
 module fuge_area_level
   use fuge_cell_elements, only: FUGE_MEAN
-  use fuge_gap_function_type, only: fuge_gap_function, sample_gap
+  use fuge_gap_function_type, only: fuge_gap_function, sample_grid
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_kinds, only: dp
   use fuge_options_type, only: fuge_options
@@ -12,7 +12,7 @@ module fuge_area_level
   implicit none
   private
 
-  public :: area_level, jumps_at_rim, misses_contact, solve_area_level
+  public :: area_level, jumps_at_rim, load_at_rim, misses_contact, solve_area_level
 
   !> Equal cells on a rectangle, and the contact on them.
   type :: area_level
@@ -116,23 +116,10 @@ contains
     real(dp), intent(in) :: place(2)
     real(dp), intent(out) :: height(:)
     type(fuge_info), intent(inout) :: info
-    real(dp) :: width(2), across(level%cells(1)), along(level%cells(2))
-    real(dp), allocatable :: x(:), y(:)
-    integer :: j, stat
+    real(dp) :: width(2)
 
     width = level%widths()
-    across = level%centres(1) + place(1)*width(1)
-    along = level%centres(2) + place(2)*width(2)
-    associate (nx => level%cells(1))
-      allocate (x(size(height)), y(size(height)), stat=stat)
-      call require_memory(stat, 'the places of', size(height), 'cells', info)
-      if (stat /= 0) return
-      do j = 1, level%cells(2)
-        x(nx*(j - 1) + 1:nx*j) = across
-        y(nx*(j - 1) + 1:nx*j) = along(j)
-      end do
-    end associate
-    call sample_gap(gap, x, y, height, info)
+    call sample_grid(gap, level%centres(1) + place(1)*width(1), level%centres(2) + place(2)*width(2), height, info)
   end subroutine sample_cells
 
   !> Is the gap under load negative somewhere in an open cell, between the samples that the solve knows? The
@@ -149,7 +136,7 @@ contains
     integer :: i, j
 
     misses = .false.
-    allocate (is_apart, source=cells_apart(level))
+    allocate (is_apart, source=count_around(level%cells, level%solution%force > 0.0_dp, .false.) == 0)
     allocate (moved, source=level%solution%gap - level%gap)
     allocate (slope_x(size(moved)), slope_y(size(moved)), height(size(moved)))
     least = -NEGATIVE*max(0.0_dp, maxval(-moved) - minval(level%gap))
@@ -166,40 +153,48 @@ contains
     end do
   end subroutine misses_contact
 
-  !> Which cells, (n), are open, and so are their neighbours?
-  pure function cells_apart(level) result(is_apart)
+  !> The share of the load in cells that have an open one beside them, along a side or at a corner; 0 without a load.
+  !> `ends`: the rim of the rectangle is one of the body, with nothing beside it.
+  pure function load_at_rim(level, ends) result(share)
     type(area_level), intent(in) :: level
-    logical :: is_apart(size(level%gap))
-    logical :: touches(0:level%cells(1) + 1, 0:level%cells(2) + 1)
-    integer :: i, j
+    logical, intent(in) :: ends
+    real(dp) :: share
 
-    touches = .false.
-    touches(1:level%cells(1), 1:level%cells(2)) = reshape(level%solution%force > 0.0_dp, level%cells)
-    do j = 1, level%cells(2)
-      do i = 1, level%cells(1)
-        is_apart(level%cells(1)*(j - 1) + i) = .not. any(touches(i - 1:i + 1, j - 1:j + 1))
-      end do
-    end do
-  end function cells_apart
+    share = 0.0_dp
+    associate (force => level%solution%force)
+      if (.not. any(force > 0.0_dp)) return
+      share = sum(force, mask=count_around(level%cells, .not. force > 0.0_dp, ends) > 0)/sum(force)
+    end associate
+  end function load_at_rim
 
-  !> Differences of `values` over one cell along x and y, central ones but at the rim.
+  !> How many of a cell and those around it are marked, (n); `beyond`: those beyond the rim are so.
+  pure function count_around(cells, marked, beyond) result(number)
+    integer, intent(in) :: cells(2)
+    logical, intent(in) :: marked(:), beyond
+    integer :: number(size(marked))
+    integer :: along(0:cells(1) + 1, 0:cells(2) + 1)
+
+    along = merge(1, 0, beyond)
+    associate (nx => cells(1), ny => cells(2))
+      along(1:nx, 1:ny) = reshape(merge(1, 0, marked), cells)
+      along(1:nx, :) = along(0:nx - 1, :) + along(1:nx, :) + along(2:, :)
+      number = reshape(along(1:nx, 0:ny - 1) + along(1:nx, 1:ny) + along(1:nx, 2:), [size(marked)])
+    end associate
+  end function count_around
+
+  !> Differences of `values` over one cell along x and y, central ones, at the rim half of them.
   pure subroutine find_slopes(cells, values, slope_x, slope_y)
     integer, intent(in) :: cells(2)
     real(dp), intent(in) :: values(:)
     real(dp), intent(out) :: slope_x(:), slope_y(:)
-    integer :: i, j, k, left, right, low, high
+    real(dp) :: grid(cells(1), cells(2))
+    integer :: j
 
-    do j = 1, cells(2)
-      low = max(j - 1, 1)
-      high = min(j + 1, cells(2))
-      do i = 1, cells(1)
-        k = cells(1)*(j - 1) + i
-        left = max(i - 1, 1)
-        right = min(i + 1, cells(1))
-        slope_x(k) = (values(k + right - i) - values(k + left - i))/real(max(1, right - left), dp)
-        slope_y(k) = (values(k + cells(1)*(high - j)) - values(k + cells(1)*(low - j)))/real(max(1, high - low), dp)
-      end do
-    end do
+    grid = reshape(values, cells)
+    associate (nx => cells(1), ny => cells(2))
+      slope_x = reshape(0.5_dp*(grid([(j, j=2, nx), nx], :) - grid([1, (j, j=1, nx - 1)], :)), [nx*ny])
+      slope_y = reshape(0.5_dp*(grid(:, [(j, j=2, ny), ny]) - grid(:, [1, (j, j=1, ny - 1)])), [nx*ny])
+    end associate
   end subroutine find_slopes
 
   !> Does the initial gap jump at the rim of the contact? There the step from a cell in contact to an open one beside it
@@ -230,31 +225,20 @@ contains
     logical, intent(in) :: touches(:)
     real(dp), intent(in) :: gap(:), least
     logical :: jumps
-    real(dp) :: step, others
-    integer :: inside, outside, k
+    !> Steps from each cell to the next one, none beyond the rim.
+    real(dp) :: step(-1:size(gap) + 1), others
+    integer :: k, n
 
     jumps = .false.
-    do k = 2, size(gap)
+    n = size(gap)
+    step = 0.0_dp
+    step(1:n - 1) = abs(gap(2:) - gap(:n - 1))
+    do k = 2, n
       if (touches(k) .eqv. touches(k - 1)) cycle
-      inside = merge(k, k - 1, touches(k))
-      outside = 2*k - 1 - inside
-      associate (outwards => outside - inside)
-        step = abs(gap(outside) - gap(inside))
-        others = 0.0_dp
-        if (is_between(inside - outwards, size(gap))) others = abs(gap(inside) - gap(inside - outwards))
-        if (is_between(outside + 2*outwards, size(gap))) &
-          others = max(others, abs(gap(outside + 2*outwards) - gap(outside + outwards)))
-      end associate
-      jumps = step > max(least, STEEPER*others)
+      others = merge(max(step(k), step(k - 3)), max(step(k - 2), step(k + 1)), touches(k))
+      jumps = step(k - 1) > max(least, STEEPER*others)
       if (jumps) return
     end do
   end function jumps_along
-
-  pure function is_between(k, n)
-    integer, intent(in) :: k, n
-    logical :: is_between
-
-    is_between = k >= 1 .and. k <= n
-  end function is_between
 
 end module fuge_area_level

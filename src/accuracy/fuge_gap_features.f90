@@ -7,12 +7,14 @@ module fuge_gap_features
   implicit none
   private
 
-  public :: find_features, gap_feature
+  public :: find_features, gap_feature, FIRST_SAMPLES
 
   !> More than so many are taken for roughness, for which equal cells are better.
   integer, parameter :: MOST_FEATURES = 16
   !> Intervals of the first look, and how many side by side that are not smooth belong to one feature.
   integer, parameter :: INTERVALS = 256, LONGEST_RUN = 3
+  !> Samples of the first look, from one end to the other.
+  integer, parameter :: FIRST_SAMPLES = 2*INTERVALS + 1
   !> Where a cubic through four samples misses the middle by more than this share of what a straight line misses, the
   !> gap is not smooth there: for a smooth one the share falls with the square of the distance of the samples.
   real(dp), parameter :: NOT_SMOOTH = 0.05_dp
@@ -34,22 +36,23 @@ module fuge_gap_features
 contains
 
   !> The features between `left` and `right`, ascending, unless the gap `is_rough`: not smooth in more than
-  !> MOST_FEATURES places. A feature that changes the gap at none of the first samples may be overlooked. Errors: those
-  !> of `sample_gap`.
-  subroutine find_features(gap, left, right, features, is_rough, info)
+  !> MOST_FEATURES places. A feature that changes the gap at none of the first samples, whose heights are `height`, may
+  !> be overlooked. Errors: those of `sample_gap`.
+  subroutine find_features(gap, left, right, features, is_rough, height, info)
     class(fuge_gap_function), intent(in) :: gap
     real(dp), intent(in) :: left, right
     type(gap_feature), allocatable, intent(out) :: features(:)
     logical, intent(out) :: is_rough
+    real(dp), intent(out) :: height(0:FIRST_SAMPLES - 1)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: x(:), height(:)
+    real(dp), allocatable :: x(:)
     real(dp) :: range
     logical :: suspect(INTERVALS)
     integer :: first, last, k
 
     allocate (features(0))
     is_rough = .false.
-    allocate (x(0:2*INTERVALS), height(0:2*INTERVALS))
+    allocate (x(0:2*INTERVALS))
     do k = 0, 2*INTERVALS
       x(k) = left + (right - left)*(real(k, dp)/real(2*INTERVALS, dp))
     end do
@@ -69,7 +72,6 @@ contains
       call next_run(suspect, last + 1, first, last)
     end do
     is_rough = size(features) > MOST_FEATURES
-    call sort(features)
   end subroutine find_features
 
   !> In which intervals, (INTERVALS), does the cubic through the nearest four ends miss the `height` in the middle by
@@ -114,7 +116,8 @@ contains
         sides(:, 3) = [feature%place + apart, bracket(2)]
       end if
       if (found) found = .not. any(abs(features%place - feature%place) <= apart)
-      if (found) features = [features, feature]
+      if (found) features = [pack(features, features%place < feature%place), feature, &
+                             pack(features, features%place > feature%place)]
     end do
   end subroutine add_features
 
@@ -172,23 +175,5 @@ contains
                                 .and. bend(3) > max(1.0e-4_dp*ROUNDING*range, &
                                                     64.0_dp*epsilon(1.0_dp)*maxval(abs(height))))
   end subroutine judge
-
-  !> Sort by place; there are few.
-  pure subroutine sort(features)
-    type(gap_feature), intent(inout) :: features(:)
-    type(gap_feature) :: next
-    integer :: j, k
-
-    do k = 2, size(features)
-      next = features(k)
-      j = k - 1
-      do while (j >= 1)
-        if (features(j)%place <= next%place) exit
-        features(j + 1) = features(j)
-        j = j - 1
-      end do
-      features(j + 1) = next
-    end do
-  end subroutine sort
 
 end module fuge_gap_features

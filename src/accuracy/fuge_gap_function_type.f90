@@ -3,11 +3,11 @@ module fuge_gap_function_type
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
-  use fuge_status, only: fuge_info, report, FUGE_DONE, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY
+  use fuge_status, only: fuge_info, report, require_memory, FUGE_DONE, FUGE_ERR_CALLBACK, FUGE_ERR_MEMORY
   implicit none
   private
 
-  public :: sample_gap
+  public :: sample_gap, sample_grid
 
   !> Extend it for a gap of your own. It may have edges, kinks and jumps, and is never evaluated outside of the
   !> interval or the rectangle of the solve.
@@ -57,5 +57,25 @@ contains
       return
     end do
   end subroutine sample_gap
+
+  !> Evaluate it on the grid of `x` (nx) and `y` (ny); `gap` (nx*ny), x running first. Errors: FUGE_ERR_CALLBACK,
+  !> FUGE_ERR_MEMORY.
+  subroutine sample_grid(function, x, y, gap, info)
+    class(fuge_gap_function), intent(in) :: function
+    real(dp), intent(in) :: x(:), y(:)
+    real(dp), intent(out) :: gap(:)
+    type(fuge_info), intent(inout) :: info
+    real(dp), allocatable :: place(:, :)
+    integer :: j, stat
+
+    allocate (place(size(gap), 2), stat=stat)
+    call require_memory(stat, 'the places of', size(gap), 'cells', info)
+    if (stat /= 0) return
+    do j = 1, size(y)
+      place(size(x)*(j - 1) + 1:size(x)*j, 1) = x
+      place(size(x)*(j - 1) + 1:size(x)*j, 2) = y(j)
+    end do
+    call sample_gap(function, place(:, 1), place(:, 2), gap, info)
+  end subroutine sample_grid
 
 end module fuge_gap_function_type

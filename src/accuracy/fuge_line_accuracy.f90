@@ -2,10 +2,9 @@
 module fuge_line_accuracy
   use fuge_gap_function_type, only: fuge_gap_function
   use fuge_kinds, only: dp
-  use fuge_line_refinement, only: begin_search, give_level, is_smooth, line_search, refine_equal_cells, &
+  use fuge_line_refinement, only: begin_search, give_level, is_smooth_valley, line_search, refine_equal_cells, &
     refine_graded_cells
   use fuge_line_series, only: give_series, series_suits, solve_by_series
-  use fuge_number_text, only: text
   use fuge_pressing_type, only: check_extent, check_pressing, fuge_pressing, warn_of_accuracy
   use fuge_resolved_contact_type, only: fuge_resolved_contact
   use fuge_smooth_contact_type, only: fuge_smooth_contact
@@ -22,10 +21,10 @@ contains
   !>
   !> The interval is the body: where the contact reaches an end, `contact%at_rim` tells so, and the body is taken to end
   !> there. `gap` is the initial gap; `left` < `right`, length; `pressing` as described there. Out: `contact`. A smooth
-  !> profile in one contact is solved by a series; up to eight intervals of contact on cells that are narrow at their
-  !> ends and at kinks and jumps of the gap; all else on equal cells by FFT. Grids become finer until the estimated
-  !> error is reached. A feature of the gap that none of the samples meets, which lie closer than a 512th of the
-  !> interval, can be missed (doc/tutorial_accuracy.md has how often the estimates held).
+  !> profile in one contact is solved by a series; up to eight intervals of contact with kinks or corners, or very small
+  !> ones, on cells that are narrow there and at their ends; all else on equal cells by FFT. Grids become finer until
+  !> the estimated error is reached. A feature of the gap that none of the samples meets, which lie closer than a 512th
+  !> of the interval, can be missed (doc/tutorial_accuracy.md has how often the estimates held).
   !>
   !> `info` is that of the last solve, or FUGE_WARN_ACCURACY with what was reached, if most_cells, most_seconds or the
   !> memory ended the search. Errors, `contact` untouched: FUGE_ERR_NOT_FINITE, FUGE_ERR_WIDTH unless left < right,
@@ -40,6 +39,7 @@ contains
     type(fuge_info), intent(out) :: info
     type(fuge_resolved_contact) :: found
     type(line_search) :: search
+    type(fuge_smooth_contact) :: series
     logical :: reached
 
     call search%history%begin()
@@ -49,10 +49,13 @@ contains
     call begin_search(gap, left, right, pressing, search, info)
     if (info%failed()) return
     reached = .false.
-    if (series_suits(pressing) .and. is_smooth(search)) &
-      call take_series(gap, left, right, pressing, search, found, reached, info)
+    if (series_suits(pressing) .and. is_smooth_valley(search)) &
+      call solve_by_series(gap, left, right, pressing, series, reached, info)
+    if (reached .and. .not. info%failed()) call give_series(gap, left, right, series, found, info)
     if (info%failed()) return
-    if (.not. reached) then
+    if (reached) then
+      call search%history%give_only_level(size(series%coefficients), found)
+    else
       call refine_cells(gap, pressing, search, info)
       if (info%failed()) return
       call give_level(pressing, search, found)
@@ -82,26 +85,5 @@ contains
     graded%history%levels = search%history%levels
     search = graded
   end subroutine refine_cells
-
-  !> Solve by a series, if there is one; `reached` then.
-  subroutine take_series(gap, left, right, pressing, search, contact, reached, info)
-    class(fuge_gap_function), intent(in) :: gap
-    real(dp), intent(in) :: left, right
-    type(fuge_pressing), intent(in) :: pressing
-    type(line_search), intent(inout) :: search
-    type(fuge_resolved_contact), intent(inout) :: contact
-    logical, intent(out) :: reached
-    type(fuge_info), intent(inout) :: info
-    type(fuge_smooth_contact) :: series
-
-    call solve_by_series(gap, left, right, pressing, series, reached, info)
-    if (info%failed() .or. .not. reached) return
-    call give_series(gap, left, right, series, contact, info)
-    if (info%failed()) return
-    associate (terms => size(series%coefficients))
-      contact%choice = 'a series of '//text(terms)//' term(s): the profile is smooth, in one contact'
-      call search%history%give_only_level(terms, contact)
-    end associate
-  end subroutine take_series
 
 end module fuge_line_accuracy

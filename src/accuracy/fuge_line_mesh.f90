@@ -25,7 +25,7 @@ module fuge_line_mesh
 
   !> Parts of the cells of an open part, and of the zone of an open part beside a contact, relative to a part in
   !> contact.
-  real(dp), parameter :: OPEN_WEIGHT = 0.5_dp, ZONE_WEIGHT = 0.25_dp
+  real(dp), parameter :: OPEN_WEIGHT = 0.2_dp, ZONE_WEIGHT = 0.2_dp
   !> Length of that zone, relative to that of the contact, and at most to that of the open part.
   real(dp), parameter :: ZONE_LENGTH = 0.15_dp, LARGEST_ZONE = 0.4_dp
   !> The same beside a part that has a corner or a kink at its other end, because how far a contact reaches beyond a
@@ -128,31 +128,18 @@ contains
     real(dp), intent(in) :: a(:, :), b(:, :)
     real(dp), allocatable :: joined(:, :)
     real(dp) :: all(2, size(a, 2) + size(b, 2)), next(2)
-    integer :: count, j, k
+    integer :: before, behind, k, n
 
     all = reshape([a, b], shape(all))
-    do k = 2, size(all, 2)
-      next = all(:, k)
-      j = k - 1
-      do while (j >= 1)
-        if (all(1, j) <= next(1)) exit
-        all(:, j + 1) = all(:, j)
-        j = j - 1
-      end do
-      all(:, j + 1) = next
-    end do
-    count = 0
+    allocate (joined(2, 0))
     do k = 1, size(all, 2)
-      if (count > 0) then
-        if (all(1, k) <= all(2, count)) then
-          all(2, count) = max(all(2, count), all(2, k))
-          cycle
-        end if
-      end if
-      count = count + 1
-      all(:, count) = all(:, k)
+      next = all(:, k)
+      n = size(joined, 2)
+      before = count(joined(2, :) < next(1))
+      behind = count(joined(1, :) > next(2))
+      if (before + behind < n) next = [min(next(1), joined(1, before + 1)), max(next(2), joined(2, n - behind))]
+      joined = reshape([joined(:, :before), next, joined(:, n - behind + 1:)], [2, before + 1 + behind])
     end do
-    allocate (joined, source=all(:, :count))
   end function joined_intervals
 
   !> About `cells` cells between `left` and `right`, graded towards the ends of the `contacts` (2, k) and towards the

@@ -5,6 +5,7 @@ module fuge_line_series
   use fuge_gap_function_type, only: fuge_gap_function, sample_gap
   use fuge_kinds, only: dp
   use fuge_line_mesh, only: borders, equal_cells, line_mesh
+  use fuge_number_text, only: text
   use fuge_pressing_type, only: fuge_pressing
   use fuge_resolved_contact_type, only: fuge_resolved_contact, FUGE_BY_SERIES
   use fuge_smooth_contact_type, only: fuge_smooth_contact
@@ -55,7 +56,6 @@ contains
     found = .false.
     call sample_series(gap, [0.0_dp, 0.0_dp], [1.0_dp, 0.0_dp], [left, right], LONGEST, profile, is_smooth, info)
     if (info%failed() .or. .not. is_smooth) return
-    if (.not. has_one_valley(profile)) return
     if (allocated(pressing%moment)) then
       call fuge_solve_smooth_punch(profile, pressing%e_star, pressing%load, series, attempt, pressing%moment)
     else
@@ -119,22 +119,6 @@ contains
     is_same = status == FUGE_DONE .and. maxval(abs(series - height)) <= SAME*maxval(abs(height))
   end subroutine look_between
 
-  !> Does the profile fall to one lowest place and rise again? Otherwise there may be several contacts, and finding that
-  !> out by series takes longer than cells do.
-  function has_one_valley(profile) result(has_one)
-    type(fuge_sampled_profile), intent(in) :: profile
-    logical :: has_one
-    real(dp), allocatable :: height(:), slope(:)
-    integer :: status
-
-    allocate (height(LONGEST + 1), slope(LONGEST + 1))
-    call profile%evaluate(profile%points(profile%lower, profile%upper, LONGEST), height, slope, status)
-    associate (lowest => minloc(height, dim=1))
-      has_one = all(height(2:lowest) <= height(:lowest - 1)) &
-                .and. all(height(lowest + 1:) >= height(lowest:LONGEST))
-    end associate
-  end function has_one_valley
-
   !> Give the contact of a series as one on equal cells, whose forces are integrals of the pressure. Errors: those of
   !> the gap function.
   subroutine give_series(gap, left, right, series, contact, info)
@@ -156,6 +140,7 @@ contains
     call sample_gap(gap, mesh%x, spread(0.0_dp, 1, n), height, info)
     if (info%failed()) return
     contact%method = FUGE_BY_SERIES
+    contact%choice = 'a series of '//text(size(series%coefficients))//' term(s): the profile is smooth, in one contact'
     contact%series = series
     contact%x = mesh%x
     contact%width_x = mesh%width

@@ -2,7 +2,7 @@
 module fuge_round_series
   use fuge_cell_elements, only: FUGE_FREE
   use fuge_constants, only: PI
-  use fuge_gap_function_type, only: fuge_gap_function, sample_gap
+  use fuge_gap_function_type, only: fuge_gap_function, sample_gap, sample_grid
   use fuge_kinds, only: dp
   use fuge_line_series, only: sample_series
   use fuge_pressing_type, only: fuge_pressing
@@ -17,13 +17,12 @@ module fuge_round_series
   public :: give_round_series, solve_by_round_series
 
   !> Places at which the gap is looked at first, in each direction; odd, so that the middle is one of them.
-  integer, parameter :: LOOKS = 129
+  integer, parameter :: LOOKS = 65
   !> Steps of the search for the axis, each with differences over this part of the one before.
   integer, parameter :: AXIS_STEPS = 4
   real(dp), parameter :: SMALLER = 0.1_dp
-  !> Radii and directions in which a round gap has to be the same, and the number of radians between two directions.
-  integer, parameter :: RADII = 8, DIRECTIONS = 5
-  real(dp), parameter :: BETWEEN = 1.3_dp
+  !> Where the profile is taken: along no line of symmetry that a body on a rectangle may have.
+  real(dp), parameter :: DIRECTION(2) = [cos(1.3_dp), sin(1.3_dp)]
   !> A gap is round if it differs, round the axis, by no more than this part of the wanted error of how far it rises.
   real(dp), parameter :: PART_OF_ACCURACY = 1.0e-3_dp
   !> Longest series of the profile that is tried.
@@ -55,19 +54,26 @@ contains
     type(fuge_sampled_profile) :: profile
     type(fuge_info) :: attempt
     real(dp) :: reach, lowest_outside
+    real(dp) :: x(LOOKS), y(LOOKS), height(LOOKS**2)
+    integer :: j, place(2)
 
     found = .false.
     axis = 0.0_dp
     if (pressing%boundary /= FUGE_FREE .or. allocated(pressing%layers)) return
+    x = [(lower(1) + (upper(1) - lower(1))*(real(j, dp)/real(LOOKS - 1, dp)), j=0, LOOKS - 1)]
+    y = [(lower(2) + (upper(2) - lower(2))*(real(j, dp)/real(LOOKS - 1, dp)), j=0, LOOKS - 1)]
+    call sample_grid(gap, x, y, height, info)
+    if (info%failed()) return
+    place = minloc(reshape(height, [LOOKS, LOOKS]))
+    axis = [x(place(1)), y(place(2))]
     call find_axis(gap, lower, upper, axis, info)
     if (info%failed()) return
     reach = min(minval(axis - lower), minval(upper - axis))
     if (.not. reach > 0.0_dp) return
-    call look_round(gap, axis, reach, pressing%accuracy, found, info)
-    if (found .and. .not. info%failed()) call sample_series(gap, axis, [cos(BETWEEN), sin(BETWEEN)], [0.0_dp, reach], &
-                                                            LONGEST, profile, found, info)
+    call sample_series(gap, axis, DIRECTION, [0.0_dp, reach], LONGEST, profile, found, info)
     if (info%failed() .or. .not. found) return
     found = .not. has_tip(profile)
+    if (found) call look_everywhere(radii(x, y, axis), height, profile, pressing%accuracy, found, lowest_outside)
     if (.not. found) return
     if (allocated(pressing%load)) then
       call fuge_solve_round_punch(profile, pressing%e_star, series, attempt, load=pressing%load)
@@ -76,28 +82,20 @@ contains
     end if
     found = attempt%status == FUGE_DONE .and. series%radius > 0.0_dp
     if (found) found = series%pressure_error <= pressing%accuracy
-    if (.not. found) return
-    call look_everywhere(gap, lower, upper, axis, profile, pressing%accuracy, found, lowest_outside, info)
     ! Forces only open the gap where they do not act.
-    found = found .and. .not. info%failed() .and. lowest_outside > series%approach
+    found = found .and. lowest_outside > series%approach
   end subroutine solve_by_round_series
 
-  !> The axis: the lowest of some places, moved to where parabolas through neighbours have their lowest points.
+  !> The axis: the lowest of some places, as it comes in, moved to where parabolas through neighbours have their lowest
+  !> points.
   subroutine find_axis(gap, lower, upper, axis, info)
     class(fuge_gap_function), intent(in) :: gap
     real(dp), intent(in) :: lower(2), upper(2)
-    real(dp), intent(out) :: axis(2)
+    real(dp), intent(inout) :: axis(2)
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: x(:), y(:), height(:)
     real(dp) :: step(2), near(5), bend
     integer :: direction, k
 
-    allocate (x(LOOKS**2), y(LOOKS**2), height(LOOKS**2))
-    call places(lower, upper, x, y)
-    call sample_gap(gap, x, y, height, info)
-    if (info%failed()) return
-    k = minloc(height, dim=1)
-    axis = [x(k), y(k)]
     step = (upper - lower)/real(LOOKS - 1, dp)
     do k = 1, AXIS_STEPS
       axis = min(max(axis, lower + step), upper - step)
@@ -113,49 +111,14 @@ contains
     end do
   end subroutine find_axis
 
-  !> LOOKS x LOOKS places on the rectangle, its rim included.
-  pure subroutine places(lower, upper, x, y)
-    real(dp), intent(in) :: lower(2), upper(2)
-    real(dp), intent(out) :: x(:), y(:)
-    integer :: j, k
+  !> Distances of the places of a grid from the axis, (nx*ny), x running first.
+  pure function radii(x, y, axis)
+    real(dp), intent(in) :: x(:), y(:), axis(2)
+    real(dp) :: radii(size(x)*size(y))
+    integer :: i, j
 
-    do k = 1, LOOKS
-      do j = 1, LOOKS
-        x(LOOKS*(k - 1) + j) = lower(1) + (upper(1) - lower(1))*(real(j - 1, dp)/real(LOOKS - 1, dp))
-        y(LOOKS*(k - 1) + j) = lower(2) + (upper(2) - lower(2))*(real(k - 1, dp)/real(LOOKS - 1, dp))
-      end do
-    end do
-  end subroutine places
-
-  !> Is the gap the same in all directions from the axis?
-  subroutine look_round(gap, axis, reach, accuracy, is_round, info)
-    class(fuge_gap_function), intent(in) :: gap
-    real(dp), intent(in) :: axis(2), reach, accuracy
-    logical, intent(out) :: is_round
-    type(fuge_info), intent(inout) :: info
-    real(dp) :: x(0:RADII*DIRECTIONS), y(0:RADII*DIRECTIONS), height(0:RADII*DIRECTIONS), radius, angle
-    integer :: j, k
-
-    x = axis(1)
-    y = axis(2)
-    do k = 1, RADII
-      radius = reach*(real(k, dp)/real(RADII, dp))
-      do j = 1, DIRECTIONS
-        angle = BETWEEN*real(j, dp)
-        x(DIRECTIONS*(k - 1) + j) = axis(1) + radius*cos(angle)
-        y(DIRECTIONS*(k - 1) + j) = axis(2) + radius*sin(angle)
-      end do
-    end do
-    call sample_gap(gap, x, y, height, info)
-    is_round = .false.
-    if (info%failed()) return
-    do k = 1, RADII
-      associate (ring => height(DIRECTIONS*(k - 1) + 1:DIRECTIONS*k))
-        is_round = maxval(ring) - minval(ring) <= PART_OF_ACCURACY*accuracy*(minval(ring) - height(0))
-      end associate
-      if (.not. is_round) return
-    end do
-  end subroutine look_round
+    radii = [((hypot(x(i) - axis(1), y(j) - axis(2)), i=1, size(x)), j=1, size(y))]
+  end function radii
 
   !> Has the profile a tip on the axis, where its slope is not zero?
   function has_tip(profile)
@@ -168,31 +131,21 @@ contains
     has_tip = status /= FUGE_DONE .or. abs(slope(1))*profile%upper > NO_TIP*(height(2) - height(1))
   end function has_tip
 
-  !> Is the gap that of the profile, `is_same`, wherever this reaches? `lowest` is that of the gaps farther from the
-  !> axis, huge if there are none. The arguments are nine: the gap and its rectangle, what was found of it, two results.
-  !> Errors: those of the gap function.
-  subroutine look_everywhere(gap, lower, upper, axis, profile, accuracy, is_same, lowest, info)
-    class(fuge_gap_function), intent(in) :: gap
-    real(dp), intent(in) :: lower(2), upper(2), axis(2), accuracy
+  !> Is the gap `height` (n) at the distances `r` (n) from the axis that of the profile, `is_same`, wherever this
+  !> reaches? `lowest` is that of the gaps farther from the axis, huge if there are none.
+  subroutine look_everywhere(r, height, profile, accuracy, is_same, lowest)
+    real(dp), intent(in) :: r(:), height(:), accuracy
     type(fuge_sampled_profile), intent(in) :: profile
     logical, intent(out) :: is_same
     real(dp), intent(out) :: lowest
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: x(:), y(:), height(:), r(:), series(:), slope(:)
+    real(dp), allocatable :: series(:), slope(:)
     integer :: status
 
-    is_same = .false.
-    lowest = huge(lowest)
-    allocate (x(LOOKS**2), y(LOOKS**2), height(LOOKS**2))
-    call places(lower, upper, x, y)
-    call sample_gap(gap, x, y, height, info)
-    if (info%failed()) return
-    allocate (r, source=hypot(x - axis(1), y - axis(2)))
     allocate (series(size(r)), slope(size(r)))
     call profile%evaluate(min(r, profile%upper), series, slope, status)
-    if (status /= FUGE_DONE) return
-    is_same = all(abs(height - series) <= PART_OF_ACCURACY*accuracy*(series - minval(series)) &
-                  + SAME*maxval(abs(series)) .or. r > profile%upper)
+    is_same = status == FUGE_DONE
+    if (is_same) is_same = all(abs(height - series) <= PART_OF_ACCURACY*accuracy*(series - minval(series)) &
+                                                       + SAME*maxval(abs(series)) .or. r > profile%upper)
     lowest = minval(height, mask=r > profile%upper)
   end subroutine look_everywhere
 
@@ -204,7 +157,7 @@ contains
     type(fuge_round_contact), intent(in) :: series
     type(fuge_resolved_contact), intent(inout) :: contact
     type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: x(:), y(:), height(:)
+    real(dp), allocatable :: height(:)
     real(dp) :: width(2), found
     integer :: cells(2), n, j
 
@@ -224,14 +177,10 @@ contains
     found = sum(contact%force)
     contact%force = contact%force*(series%load/found)
 
-    allocate (x(product(cells)), y(product(cells)), height(product(cells)))
-    do j = 1, cells(2)
-      x(cells(1)*(j - 1) + 1:cells(1)*j) = contact%x
-      y(cells(1)*(j - 1) + 1:cells(1)*j) = contact%y(j)
-    end do
-    call sample_gap(gap, x, y, height, info)
+    allocate (height(product(cells)))
+    call sample_grid(gap, contact%x, contact%y, height, info)
     if (info%failed()) return
-    contact%gap = series%gaps_at(hypot(x - axis(1), y - axis(2)), height)
+    contact%gap = series%gaps_at(radii(contact%x, contact%y, axis), height)
     contact%method = FUGE_BY_SERIES
     contact%choice = 'a series: the bodies are round and smooth, in one disc of contact'
     contact%load = series%load
@@ -249,19 +198,16 @@ contains
     type(fuge_round_contact), intent(in) :: series
     real(dp), intent(in) :: axis(2)
     type(fuge_resolved_contact), intent(inout) :: contact
-    real(dp), allocatable :: smooth_part(:)
-    real(dp) :: pressure(1), square, diagonal, distance
+    real(dp), allocatable :: smooth_part(:), squares(:)
+    real(dp) :: diagonal, distance
     integer :: i, j, k
 
     ! The pressure over the root of 1 - (r/radius)^2 is smooth over the square of the radius.
-    allocate (smooth_part(0:TABLE))
-    contact%largest = 0.0_dp
-    do k = 0, TABLE - 1
-      square = real(k, dp)/real(TABLE, dp)
-      pressure = series%pressures_at([series%radius*sqrt(square)])
-      contact%largest = max(contact%largest, pressure(1))
-      smooth_part(k) = pressure(1)/sqrt(1.0_dp - square)
-    end do
+    allocate (smooth_part(0:TABLE), squares(0:TABLE - 1))
+    squares = [(real(k, dp)/real(TABLE, dp), k=0, TABLE - 1)]
+    smooth_part(:TABLE - 1) = series%pressures_at(series%radius*sqrt(squares))
+    contact%largest = maxval(smooth_part(:TABLE - 1))
+    smooth_part(:TABLE - 1) = smooth_part(:TABLE - 1)/sqrt(1.0_dp - squares)
     smooth_part(TABLE) = 2.0_dp*smooth_part(TABLE - 1) - smooth_part(TABLE - 2)
     associate (width => [contact%width_x(1), contact%width_y(1)])
       diagonal = 0.5_dp*hypot(width(1), width(2))

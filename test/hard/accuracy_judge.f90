@@ -6,7 +6,9 @@ module accuracy_judge
   use fuge_halfplane_fft, only: fuge_halfplane_operator
   use fuge_halfspace_fft, only: fuge_halfspace_operator
   use fuge_kinds, only: dp
+  use fuge_level_history, only: line_difference
   use fuge_line_accuracy, only: fuge_solve_line
+  use fuge_line_mesh, only: borders, line_mesh
   use fuge_operator_type, only: fuge_operator
   use fuge_options_type, only: fuge_options
   use fuge_pressing_type, only: fuge_pressing
@@ -42,7 +44,7 @@ module accuracy_judge
   !> The answers have no more than these, or are too fine for the references.
   integer, parameter :: MOST_CELLS = 2**12
   !> How much more exact a reference by graded cells is.
-  real(dp), parameter :: MORE_EXACT = 10.0_dp
+  real(dp), parameter :: MORE_EXACT = 6.0_dp
   !> Most cells of these: on more, equal cells would take their place.
   integer, parameter :: MOST_GRADED = 1900
 
@@ -75,6 +77,7 @@ contains
     type(accuracy_verdict), intent(out) :: verdict
     type(gap_sum) :: gap
     real(dp) :: start, middle, finish
+    type(fuge_solution) :: coarser
 
     call draw_line(number, verdict%family, gap, verdict%pressing)
     verdict%pressing%most_cells = MOST_CELLS
@@ -85,10 +88,11 @@ contains
     if (may_jump(verdict%family)) then
       call compare_with_solve(gap, verdict)
     else
-      call compare_with_cells(gap, FINE, verdict)
-      if (falls_short(verdict, 1.0_dp)) call compare_with_cells(gap, FINEST, verdict)
+      call compare_with_cells(gap, FINE, verdict, coarser)
+      if (falls_short(verdict, 1.0_dp) .or. approach_falls_short(verdict, 1.0_dp)) &
+        call compare_with_cells(gap, FINEST, verdict, coarser)
       ! Where the pressure is nearly that at a corner, even these cells are too wide: graded ones have to agree.
-      if (falls_short(verdict, 1.0_dp)) call compare_with_solve(gap, verdict)
+      if (falls_short(verdict, 1.0_dp) .or. approach_falls_short(verdict, 1.0_dp)) call compare_with_solve(gap, verdict)
     end if
     call cpu_time(finish)
     verdict%seconds = [middle - start, finish - middle]
@@ -107,13 +111,22 @@ contains
     call fuge_solve_line(gap, -1.0_dp, 1.0_dp, pressing, fine, info)
     if (info%failed() .or. fine%method /= FUGE_BY_GRADED_CELLS &
         .or. fine%pressure_error > 0.5_dp*verdict%contact%pressure_error) return
-    call compare(verdict, fine%x, fine%width_x, fine%force, fine%approach)
+    associate (contact => verdict%contact)
+      ! Straight lines between borders of graded cells would have errors like those of the answer.
+      verdict%error = min(verdict%error, line_difference( &
+        borders(line_mesh(contact%x, contact%width_x)), contact%force, borders(line_mesh(fine%x, fine%width_x)), &
+        fine%force)/fine%load)
+      verdict%approach_error = min(verdict%approach_error, abs(contact%approach - fine%approach))
+    end associate
   end subroutine compare_with_solve
 
-  subroutine compare_with_cells(gap, n, verdict)
+  !> Compare with `n` equal cells. `coarser` is the last such reference, if there was one, from which the errors of this
+  !> one are estimated: they fall at least like those of corners. Out: this one.
+  subroutine compare_with_cells(gap, n, verdict, coarser)
     type(gap_sum), intent(in) :: gap
     integer, intent(in) :: n
     type(accuracy_verdict), intent(inout) :: verdict
+    type(fuge_solution), intent(inout) :: coarser
     type(fuge_halfplane_operator) :: operator
     type(fuge_problem) :: problem
     type(fuge_solution) :: solution
@@ -143,7 +156,25 @@ contains
     call solve_finely(operator, problem, solution, info)
     if (info%failed()) return
     call compare(verdict, x, width, solution%force, solution%motion(1))
+    if (allocated(coarser%force)) call leave_out_own_errors(solution, coarser, verdict)
+    coarser = solution
   end subroutine compare_with_cells
+
+  !> Subtract from the errors those that a `fine` reference may have itself, after a `coarser` one. At a corner that of
+  !> the pressure falls with the root of the width, and that of the approach in proportion to it.
+  pure subroutine leave_out_own_errors(fine, coarser, verdict)
+    type(fuge_solution), intent(in) :: fine, coarser
+    type(accuracy_verdict), intent(inout) :: verdict
+    integer :: each
+    real(dp) :: difference
+
+    each = size(fine%force)/size(coarser%force)
+    difference = 0.5_dp*sum(abs(sum(reshape(fine%force, [each, size(coarser%force)]), dim=1) - coarser%force)) &
+                 /sum(coarser%force)
+    verdict%error = max(0.0_dp, verdict%error - difference/(sqrt(real(each, dp)) - 1.0_dp))
+    verdict%approach_error = max(0.0_dp, verdict%approach_error - abs(fine%motion(1) - coarser%motion(1)) &
+                                         /real(each - 1, dp))
+  end subroutine leave_out_own_errors
 
   subroutine solve_finely(operator, problem, solution, info)
     class(fuge_operator), intent(in) :: operator
@@ -157,11 +188,13 @@ contains
     call solver%solve(operator, problem, solution, info, options)
   end subroutine solve_finely
 
-  !> True errors from a fine solution; of several the smallest ones.
+  !> True errors from a fine solution, counted on cells of the answer that are put together where they are narrower than
+  !> those of the fine solution; of several the smallest ones.
   pure subroutine compare(verdict, x, width, force, approach)
     type(accuracy_verdict), intent(inout) :: verdict
     real(dp), intent(in) :: x(:), width(:), force(:), approach
     real(dp) :: fine(size(x) + 1), upto(size(x) + 1), error
+    real(dp), allocatable :: middle(:), span(:), total(:)
     integer :: k
 
     fine(1) = x(1) - 0.5_dp*width(1)
@@ -170,10 +203,34 @@ contains
       fine(k + 1) = x(k) + 0.5_dp*width(k)
       upto(k + 1) = upto(k) + force(k)
     end do
-    error = misplaced_share(verdict%contact%x, verdict%contact%width_x, verdict%contact%force, fine, upto)
+    call put_together(verdict%contact, width(1), middle, span, total)
+    error = misplaced_share(middle, span, total, fine, upto)
     verdict%error = min(verdict%error, error)
     verdict%approach_error = min(verdict%approach_error, abs(verdict%contact%approach - approach))
   end subroutine compare
+
+  !> Cells of a line that are put together to be at least of the width `least`: centres, widths and forces.
+  pure subroutine put_together(contact, least, x, width, force)
+    type(fuge_resolved_contact), intent(in) :: contact
+    real(dp), intent(in) :: least
+    real(dp), allocatable, intent(out) :: x(:), width(:), force(:)
+    real(dp) :: left, right, total
+    integer :: k
+
+    allocate (x(0), width(0), force(0))
+    left = contact%x(1) - 0.5_dp*contact%width_x(1)
+    total = 0.0_dp
+    do k = 1, size(contact%x)
+      total = total + contact%force(k)
+      right = contact%x(k) + 0.5_dp*contact%width_x(k)
+      if (right - left < least .and. k < size(contact%x)) cycle
+      x = [x, 0.5_dp*(left + right)]
+      width = [width, right - left]
+      force = [force, total]
+      left = right
+      total = 0.0_dp
+    end do
+  end subroutine put_together
 
   !> Surface `number` on at most n/2 x n/2 cells, against `n` x `n`.
   subroutine judge_area(number, n, verdict)
