@@ -24,8 +24,8 @@ module fuge_line_refinement
     !> Kinks and jumps of the gap, unless it is rough: then it has too many; is there no load?
     type(gap_feature), allocatable, private :: features(:)
     logical, private :: is_rough = .false., is_unloaded = .false.
-    !> The gap at equal distances, as found first.
-    real(dp), private :: samples(FIRST_SAMPLES) = 0.0_dp
+    !> The gap at equal distances, as found first, (FIRST_SAMPLES).
+    real(dp), allocatable, private :: samples(:)
     type(level_history) :: history
     !> The first level of equal cells, and the last level; is a contact known to be missed on it, or not resolved; and
     !> have the ends of the contact settled?
@@ -87,6 +87,7 @@ contains
     search%left = left
     search%right = right
     search%is_unloaded = pressing%is_unloaded()
+    allocate (search%samples(FIRST_SAMPLES))
     call find_features(gap, left, right, search%features, search%is_rough, search%samples, info)
   end subroutine begin_search
 

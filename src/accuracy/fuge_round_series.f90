@@ -54,18 +54,20 @@ contains
     type(fuge_sampled_profile) :: profile
     type(fuge_info) :: attempt
     real(dp) :: reach, lowest_outside
-    real(dp) :: x(LOOKS), y(LOOKS), height(LOOKS**2)
-    integer :: j, place(2)
+    real(dp) :: x(LOOKS), y(LOOKS)
+    real(dp), allocatable :: height(:)
+    integer :: j, place
 
     found = .false.
     axis = 0.0_dp
     if (pressing%boundary /= FUGE_FREE .or. allocated(pressing%layers)) return
     x = [(lower(1) + (upper(1) - lower(1))*(real(j, dp)/real(LOOKS - 1, dp)), j=0, LOOKS - 1)]
     y = [(lower(2) + (upper(2) - lower(2))*(real(j, dp)/real(LOOKS - 1, dp)), j=0, LOOKS - 1)]
+    allocate (height(LOOKS**2))
     call sample_grid(gap, x, y, height, info)
     if (info%failed()) return
-    place = minloc(reshape(height, [LOOKS, LOOKS]))
-    axis = [x(place(1)), y(place(2))]
+    place = minloc(height, dim=1) - 1
+    axis = [x(modulo(place, LOOKS) + 1), y(place/LOOKS + 1)]
     call find_axis(gap, lower, upper, axis, info)
     if (info%failed()) return
     reach = min(minval(axis - lower), minval(upper - axis))

@@ -18,7 +18,8 @@ module fuge_c_design
 
 contains
 
-  !> The gradient over all data, see `fuge_solve_adjoint`. The arguments are thirteen, because each gradient may be left out.
+  !> The gradient over all data, see `fuge_solve_adjoint`. The arguments are thirteen, because each gradient may be left
+  !> out.
   function c_get_gradients(solver, force_weight, gap_weight, motion_weight, gap, load, compliance, motion_stiffness, &
                            gap_upper, limit, limit_upper, log_modulus, at_kink) &
     bind(c, name='fuge_get_gradients') result(status)
