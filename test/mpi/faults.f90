@@ -7,7 +7,7 @@ module failing_ranks
   implicit none
   private
 
-  ! From product number `last` on, the ranks from 1 on return `failure`, or NaN if that is 0.
+  ! From product number `last` on, rank 1 returns `failure`, or NaN in double precision if that is 0.
   type, extends(fuge_mpi_halfspace_operator), public :: failing_operator
     integer :: last = huge(1), failure = 0, rank = 0
     integer, pointer :: count => null()
@@ -46,9 +46,7 @@ contains
 
     call self%fuge_mpi_halfspace_operator%apply_single(input, result, status)
     self%count = self%count + 1
-    if (self%count < self%last .or. self%rank /= 1) return
-    status = self%failure
-    if (status == 0) result(1) = ieee_value(1.0_sp, ieee_quiet_nan)
+    if (self%count >= self%last .and. self%rank == 1 .and. self%failure /= 0) status = self%failure
   end subroutine apply_single_failing
 
   subroutine cancel_third(self, iteration, residual, contacts, cancel)
