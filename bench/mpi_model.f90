@@ -6,7 +6,8 @@
 ! An iteration is one product and one preconditioning in single precision, SUMS sums or maxima over all ranks, passes
 ! over the points, and the extension of residuals. On P ranks that share n x n cells it takes
 !
-!   W(n) n^2/P + 24 n^2/(P B) (1 - 1/P) + (4 (P - 1) + SUMS log2(P)) L (levels) + EXTENDED/B + ROWS L (shared levels)
+!   W(n) n^2/P + 24 n^2/(P B) (1 - 1/P) + (4 (P - 1) + SUMS log2(P)) L (levels) + EXTENDED/B
+!     + (ROWS + AGREEMENTS log2(P)) L (shared levels)
 !
 ! W(n) = (product + preconditioning) (a + b log2 n) + passes is the work at a cell, with all cores busy. The latencies
 ! count once for each grid, as if coarser grids took as many iterations as the finest one; each grid lies on as many
@@ -21,9 +22,9 @@ program mpi_model
 
   ! Sums and maxima of an iteration.
   integer, parameter :: SUMS = 20
-  ! To extend residuals and to collect forces: rows to and from neighbours on each grid that ranks share, and numbers of
-  ! the first grid that they do not share, there and back.
-  integer, parameter :: ROWS = 8
+  ! To extend residuals and to collect forces: rows to and from neighbours, and agreements of all ranks, on each grid
+  ! that ranks share, and numbers of the first grid that they do not share, there and back.
+  integer, parameter :: ROWS = 16, AGREEMENTS = 10
   real(dp), parameter :: EXTENDED = 4.0_dp*16384.0_dp
   ! As in fuge_slab_rows.
   integer, parameter :: FEWEST_CELLS = 16384, SHORTEST = 128
@@ -268,7 +269,10 @@ contains
     m = n
     do while (m >= 16)
       parts(3) = parts(3) + 4.0_dp*(active(m, p) - 1.0_dp)*where%latency
-      if (q > 1.0_dp .and. real(m, dp)**2 >= FEWEST_CELLS) parts(3) = parts(3) + real(ROWS, dp)*where%latency
+      if (q > 1.0_dp .and. real(m, dp)**2 >= FEWEST_CELLS) then
+        parts(3) = parts(3) + real(ROWS, dp)*where%latency
+        parts(4) = parts(4) + real(AGREEMENTS, dp)*where%latency*log(p)/log(2.0_dp)
+      end if
       parts(4) = parts(4) + real(SUMS, dp)*where%latency*log(p)/log(2.0_dp)
       m = m/2
       if (.not. coarser) exit

@@ -167,6 +167,7 @@ contains
     type(fuge_pressing), intent(in) :: pressing
     type(area_search), intent(inout) :: search
 
+    search%misses = .false.
     search%history%law = SMOOTH
     search%history%least_error = PART_OF_RIM*load_at_rim(search%level, pressing%boundary == FUGE_FREE)
     if (any(rim_contact(pressing, search%level))) search%history%law = AT_RIM

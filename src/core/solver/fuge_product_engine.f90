@@ -202,6 +202,7 @@ contains
     type(fuge_options) :: stricter
     logical, dimension(problem%mode_count()) :: attached, on_spring, too_soft
     real(dp), dimension(problem%mode_count()) :: carried, excess, load
+    real(dp) :: farthest, guess, usual
     type(point_space) :: space
     integer :: pass, stat
 
@@ -215,9 +216,13 @@ contains
     attached = on_spring
     load = problem%resultants()
     ! The first solve is exact enough already, where it is seen how far springs give way.
-    excess = distances_alone(problem, space)/max(USUAL_SHARE*gap_range(problem, space), tiny(1.0_dp))
-    if (any(excess > 1.0_dp)) stricter%tolerance = tolerance_on_springs(options%tolerance, &
-                                                                        min(maxval(excess), MUCH_FARTHER))
+    usual = USUAL_SHARE*gap_range(problem, space)
+    farthest = maxval(distances_alone(problem, space))
+    if (usual > 0.0_dp .and. farthest > usual) then
+      guess = MUCH_FARTHER
+      if (farthest/MUCH_FARTHER < usual) guess = farthest/usual
+      stricter%tolerance = tolerance_on_springs(options%tolerance, guess)
+    end if
     do pass = 1, PASSES
       attached = on_spring
       call springs%set_springs(problem, attached, space, info)

@@ -135,7 +135,17 @@ contains
     failed = merge(0.0_dp, 1.0_dp, status == FUGE_DONE)
     call group%raise(failed)
     products%has_single = .not. failed(1) > 0.0_dp
+    if (associated(products%shared) .and. .not. products%has_single) call free_single(products%shared)
   end subroutine prepare_single
+
+  !> Free what products in single precision need.
+  subroutine free_single(shared)
+    type(shared_products), intent(inout) :: shared
+
+    call shared%single_influence%free()
+    call shared%single_inverse%free()
+    call shared%single%free()
+  end subroutine free_single
 
   !> What one of several ranks needs, of the `ranks` on which the rows are laid out, `holders` have any. Errors, on
   !> all these: FUGE_ERR_MEMORY.
@@ -255,9 +265,7 @@ contains
     if (associated(self%shared)) then
       call self%shared%influence%free()
       call self%shared%inverse%free()
-      call self%shared%single_influence%free()
-      call self%shared%single_inverse%free()
-      call self%shared%single%free()
+      call free_single(self%shared)
       call self%shared%plan%free()
       deallocate (self%shared)
     end if

@@ -70,13 +70,16 @@ contains
     m = size(modes, 2)
     stat = 0
     if (.not. allocated(self%coefficients)) allocate (self%coefficients(m, m), stat=stat)
+    call require_memory(stat, 'the coefficients of', m, 'rigid motions', info)
+    call segments%space%agree(info)
+    if (stat /= 0 .or. info%failed()) return
     self%has_basis = .false.
-    if (stat == 0 .and. .not. self%needs_basis) then
+    if (.not. self%needs_basis) then
       call find_coefficients(self, modes, segments, done)
       if (done) return
     end if
     self%has_basis = .true.
-    if (stat == 0 .and. .not. allocated(self%basis)) allocate (self%basis(size(modes, 1), m), stat=stat)
+    if (.not. allocated(self%basis)) allocate (self%basis(size(modes, 1), m), stat=stat)
     call require_memory(stat, 'the rigid motions of', size(modes, 1), 'points', info)
     call segments%space%agree(info)
     if (stat /= 0 .or. info%failed()) return

@@ -109,7 +109,7 @@ contains
     call find_products(self, scene, state, iterate, serves)
   end subroutine set_images
 
-  !> B^T U on the present set; it `serves` if it is not singular, of one motion positive.
+  !> B^T U on the present set; it `serves` if `solve` can do with it.
   subroutine find_products(self, scene, state, iterate, serves)
     class(single_preconditioner), intent(inout) :: self
     type(contact_scene), intent(in), target :: scene
@@ -133,7 +133,6 @@ contains
     if (state%flexibility > 0.0_dp) self%products = self%products + 1.0_dp/state%flexibility
     test = 0.0_dp
     call solve(self%products, test, serves)
-    if (m == 1) serves = self%products(1, 1) > 0.0_dp
   end subroutine find_products
 
   !> Number of rigid motions that are free or on a spring.
@@ -145,7 +144,7 @@ contains
     if (state%flexibility > 0.0_dp) columns = 1
   end function columns_of
 
-  !> right := matrix**-1 right; not `possible` where the matrix is singular.
+  !> right := matrix**-1 right; not `possible` where the matrix is singular, or one number that is not positive.
   subroutine solve(matrix, right, possible)
     real(dp), intent(in) :: matrix(:, :)
     real(dp), intent(inout) :: right(:)
@@ -153,19 +152,19 @@ contains
     real(dp) :: copy(size(right), size(right))
     integer :: pivots(size(right)), stat
 
-    stat = 0
-    copy = matrix
     if (size(right) == 1) then
-      right = right/copy(1, 1)
-    else
-      call dgesv(size(right), 1, copy, size(right), pivots, right, size(right), stat)
+      possible = matrix(1, 1) > 0.0_dp
+      if (possible) right = right/matrix(1, 1)
+      return
     end if
+    copy = matrix
+    call dgesv(size(right), 1, copy, size(right), pivots, right, size(right), stat)
     possible = stat == 0
   end subroutine solve
 
   !> state%work less `factors` times state%images: forces on the contact whose displacements are close to the residuals
   !> and which have no resultants; where no motion is free the forces are state%work. `energy`: their inner product with
-  !> the residuals. Errors: those of the operator.
+  !> the residuals, 0 where the images leave a motion out. Errors: those of the operator.
   subroutine apply(self, operator, scene, state, iterate, factors, energy, info)
     class(single_preconditioner), intent(inout) :: self
     class(fuge_operator), intent(in) :: operator
@@ -202,6 +201,8 @@ contains
     resultants = [(pass%total(1 + j), j=1, m)]
     factors(:m) = resultants
     call solve(self%products, factors(:m), possible)
+    if (.not. possible) energy = 0.0_dp
+    if (.not. possible) return
     ! The inner products of the images and the residuals are those of the basis and `work`, or zero if they are centred.
     if (self%changed == 0) energy = energy - dot_product(factors(:m), resultants)
   end subroutine apply
