@@ -528,21 +528,32 @@ contains
     end do
   end subroutine center_residuals
 
+  !> `found` over the contact of chunk `k`: the inner product of `x` (n) and `work`, the sum of `work`, and its largest
+  !> magnitude.
+  subroutine inner_over_contact(pass, k, x, found)
+    class(point_pass), intent(in) :: pass
+    integer, intent(in) :: k
+    real(sp), intent(in), contiguous :: x(:)
+    real(dp), intent(out) :: found(3)
+    integer :: j
+
+    found = 0.0_dp
+    do j = pass%segments%before(k) + 1, pass%segments%before(k + 1)
+      associate (a => pass%segments%first(j), b => pass%segments%last(j))
+        call inner_and_sum(b - a + 1, x(a:b), pass%work(a:b), found)
+      end associate
+    end do
+  end subroutine inner_over_contact
+
   !> Found: the inner product of the residuals and the preconditioned ones, `work`, and the components of these over the
   !> contact.
   subroutine sum_energy(pass, k, first, last)
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
     real(dp) :: found(3)
-    integer :: j
 
-    found = 0.0_dp
     if (last < first) return
-    do j = pass%segments%before(k) + 1, pass%segments%before(k + 1)
-      associate (a => pass%segments%first(j), b => pass%segments%last(j))
-        call inner_and_sum(b - a + 1, pass%residual(a:b), pass%work(a:b), found)
-      end associate
-    end do
+    call inner_over_contact(pass, k, pass%residual, found)
     pass%found(:2, k) = found(:2)
     if (associated(pass%basis)) then
       pass%found(2, k) = 0.0_dp
@@ -590,15 +601,9 @@ contains
     class(point_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
     real(dp) :: found(3)
-    integer :: j
 
-    found = 0.0_dp
     if (last < first) return
-    do j = pass%segments%before(k) + 1, pass%segments%before(k + 1)
-      associate (a => pass%segments%first(j), b => pass%segments%last(j))
-        call inner_and_sum(b - a + 1, pass%direction(a:b), pass%work(a:b), found)
-      end associate
-    end do
+    call inner_over_contact(pass, k, pass%direction, found)
     pass%found(:3, k) = [found(3), found(1), found(2)]
     if (associated(pass%basis)) then
       pass%found(3, k) = 0.0_dp

@@ -201,8 +201,10 @@ contains
     resultants = [(pass%total(1 + j), j=1, m)]
     factors(:m) = resultants
     call solve(self%products, factors(:m), possible)
-    if (.not. possible) energy = 0.0_dp
-    if (.not. possible) return
+    if (.not. possible) then
+      energy = 0.0_dp
+      return
+    end if
     ! The inner products of the images and the residuals are those of the basis and `work`, or zero if they are centred.
     if (self%changed == 0) energy = energy - dot_product(factors(:m), resultants)
   end subroutine apply
