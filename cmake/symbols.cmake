@@ -23,6 +23,9 @@ check_linker_flag(Fortran "-Wl,--version-script=${fuge_version_script}" FUGE_HAS
 
 function(fuge_limit_symbols target)
   set_target_properties(${target} PROPERTIES C_VISIBILITY_PRESET hidden)
+  # gfortran inlines no procedure of a submodule in position-independent code without this, because a program might
+  # replace it: every small function there is a call.
+  target_compile_options(${target} PRIVATE "$<$<COMPILE_LANG_AND_ID:Fortran,GNU>:-fno-semantic-interposition>")
   get_target_property(type ${target} TYPE)
   if(type STREQUAL "SHARED_LIBRARY" AND FUGE_HAS_VERSION_SCRIPT)
     target_link_options(${target} PRIVATE "-Wl,--version-script=${fuge_version_script}")
