@@ -8,8 +8,7 @@ module fuge_contact_set_search
   use, intrinsic :: iso_fortran_env, only: int8
   use fuge_blocking_step, only: is_tensile, step_to_blocking
   use fuge_complete_contact, only: equal_forces_displace_nothing
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, &
-    is_accurate, rounding_force
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, evaluate_iterate, is_accurate, rounding_force
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, &
@@ -249,7 +248,7 @@ contains
     if (allocated(scene%excluded)) where (scene%excluded) iterate%force = 0.0_dp
     iterate%contact = .false.
     iterate%limited = merge(1, 0, iterate%force > 0.0_dp)
-    call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, iterate%displacement, info)
+    call compute_displacement(operator, scene%counts_datum(), iterate%force, iterate%displacement, info)
     ! A point of next to no force does not carry what the others leave.
     if (.not. info%failed()) call release_furthest(scene, NEARLY, iterate)
   end subroutine start_at_limits
@@ -264,7 +263,7 @@ contains
     logical :: undetermined
 
     undetermined = .false.
-    if (.not. (iterate%prescribed .and. scene%is_simple())) return
+    if (.not. (scene%prescribed .and. scene%is_simple())) return
     if (scene%rows%everywhere(all(iterate%contact))) undetermined = equal_forces_displace_nothing(operator, info)
   end function has_undetermined_forces
 
@@ -282,13 +281,18 @@ contains
     class(fuge_monitor), intent(inout) :: monitor
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
+    type(contact_scene) :: free
     real(dp) :: sums(2)
+    integer :: stat
 
     sums = [sum(scene%gap), sum(abs(scene%gap))]
     call scene%rows%add(sums)
-    iterate%prescribed = .false.
-    call solve_on_contact_set(operator, settings, preconditioner, scene, .false., monitor, iterate, info)
-    iterate%prescribed = .true.
+    free%rows = scene%rows
+    allocate (free%gap, source=scene%gap, stat=stat)
+    call require_memory(stat, 'the gaps of', size(scene%gap), 'points', info)
+    call scene%rows%agree(info)
+    if (stat /= 0 .or. info%failed()) return
+    call solve_on_contact_set(operator, settings, preconditioner, free, .false., monitor, iterate, info)
     if (info%failed()) return
     if (.not. sums(1) > ROUNDINGS*epsilon(1.0_dp)*sums(2)) then
       iterate%force = iterate%force - scene%rows%least(minval(iterate%force))
@@ -316,7 +320,7 @@ contains
     if (info%failed()) return
     compliance = 0.0_dp
     if (.not. operator%has_preconditioner()) compliance = maxval(abs(iterate%displacement))
-    call preconditioner%set(operator, iterate%contact, .not. iterate%prescribed, compliance, info)
+    call preconditioner%set(operator, iterate%contact, .not. scene%prescribed, compliance, info)
     if (allocated(scene%modes) .and. .not. info%failed()) then
       call preconditioner%set_modes(operator, iterate%projection, iterate%segments, iterate%contact, info)
     end if

@@ -134,7 +134,7 @@ contains
     pass%load = scaling%load
     call pass%run(n, 1)
     motion = scaling%gap_datum
-    if (.not. iterate%prescribed) then
+    if (.not. scene%prescribed) then
       motion = (scaling%load*iterate%motion + operator%datum()*scene%rows%total(pass%total(1))) + scaling%gap_datum
     end if
     call move_alloc(motion, solution%motion)

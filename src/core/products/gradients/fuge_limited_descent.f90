@@ -6,7 +6,7 @@
 !> E. G. Birgin, J. M. Martinez, M. Raydan, SIAM Journal on Optimization 10, 2000, with the exact step of a quadratic
 !> energy; the step along the gaps is that of J. Barzilai and J. M. Borwein).
 module fuge_limited_descent
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate
   use fuge_contact_scene, only: contact_scene
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
@@ -61,7 +61,7 @@ contains
     do step = 1, STEPS
       ! The gradient of the energy but for the motion, which the projection takes out.
       direction = iterate%force - length*(scene%gap + iterate%displacement)
-      if (iterate%prescribed) then
+      if (scene%prescribed) then
         direction = min(max(direction, 0.0_dp), most)
       else
         ! So that sums of forces and shifts do not overflow.
@@ -71,7 +71,7 @@ contains
       changed = scene%rows%total_count(count((direction > 0.0_dp .neqv. iterate%force > 0.0_dp) .or. &
                                              (direction >= most .neqv. iterate%force >= most)))
       direction = direction - iterate%force
-      call compute_displacement(operator, counts_datum(scene, iterate), direction, change, info)
+      call compute_displacement(operator, scene%counts_datum(), direction, change, info)
       if (info%failed()) return
       sums = [dot_product(direction, scene%gap + iterate%displacement), dot_product(direction, change), &
               dot_product(direction, direction)]

@@ -157,7 +157,7 @@ contains
 
     if (allocated(scene%modes)) then
       iterate%force = scene%balance
-    else if (iterate%prescribed) then
+    else if (scene%prescribed) then
       iterate%force = 0.0_dp
     else
       allocate (most, source=scene%limit)

@@ -4,7 +4,7 @@
 !> nothing on this set can stop them. Either some force leaves its range, and its point the set, or none does, and the
 !> contact problem has no solution (Farkas' lemma, for a convex quadratic program).
 module fuge_null_direction
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, iterate_pass
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, iterate_pass
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: max_abs_over
   use fuge_kinds, only: dp
@@ -49,7 +49,7 @@ contains
       if (.not. all(operator%grid() > 0)) then
         unit = 0.0_dp
         unit(iterate%segments%first(1)) = 1.0_dp
-        call compute_displacement(operator, counts_datum(scene, iterate), unit, terms, info)
+        call compute_displacement(operator, scene%counts_datum(), unit, terms, info)
         if (.not. info%failed()) iterate%softness = max(iterate%softness, maxval(abs(terms)), &
                                                         softness_so_far(scene, iterate))
       end if

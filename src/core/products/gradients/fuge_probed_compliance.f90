@@ -6,8 +6,7 @@
 !> rounded, may as well be in contact, and count.
 module fuge_probed_compliance
   use, intrinsic :: iso_fortran_env, only: int64
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, deformed_gap, &
-    overlap_at, remove_rigid_part
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, deformed_gap, overlap_at, remove_rigid_part
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_contact_segments, only: add_scaled_over, contact_segments, dot_over, max_abs_over
@@ -55,7 +54,7 @@ contains
     value = -1.0_dp
     call start_probe(scene, rounding, iterate, probe, info)
     if (info%failed() .or. follow_from_equilibrium(scene, probe)) return
-    call preconditioner%set(operator, probe%contact, .not. probe%prescribed, maxval(abs(iterate%displacement)), info)
+    call preconditioner%set(operator, probe%contact, .not. scene%prescribed, maxval(abs(iterate%displacement)), info)
     if (allocated(scene%modes) .and. .not. info%failed()) then
       call preconditioner%set_modes(operator, probe%projection, probe%segments, probe%contact, info)
     end if
@@ -104,7 +103,7 @@ contains
     logical :: follow
     integer :: resultants
 
-    resultants = merge(0, 1, probe%prescribed)
+    resultants = merge(0, 1, scene%prescribed)
     if (allocated(scene%modes)) resultants = probe%projection%rank
     follow = probe%segments%points <= resultants
   end function follow_from_equilibrium
@@ -125,7 +124,6 @@ contains
     call require_memory(stat, 'the estimated error of', n, 'forces', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    probe%prescribed = iterate%prescribed
     probe%softness = iterate%softness
     if (.not. probe%softness > 0.0_dp) probe%softness = softness_so_far(scene, iterate)
     call mark_possible_contact(scene, rounding, iterate, probe%contact)
@@ -141,7 +139,7 @@ contains
       seed = mod(16807_int64*seed, 2147483647_int64)
       probe%residual(k) = merge(2.0_dp*real(seed, dp)/2147483647.0_dp - 1.0_dp, 0.0_dp, probe%contact(k))
     end do
-    call remove_rigid_part(scene, probe%prescribed, probe%projection, probe%segments, probe%residual)
+    call remove_rigid_part(scene, probe%projection, probe%segments, probe%residual)
   end subroutine start_probe
 
   !> Conjugate gradients from the lengths of `probe` on, until the smallest value of Lanczos has settled: the compliance
@@ -174,7 +172,7 @@ contains
       ! Without energy left only rounding would follow.
       if (.not. energy > epsilon(first)*first) exit
       call add_scaled_over(probe%segments, energy/previous, probe%work, probe%direction)
-      call compute_displacement(operator, counts_datum(scene, probe), probe%direction, probe%work, info)
+      call compute_displacement(operator, scene%counts_datum(), probe%direction, probe%work, info)
       if (.not. info%failed()) call find_softness(operator, scene, probe, info)
       value = 0.0_dp
       if (info%failed()) return
@@ -193,7 +191,7 @@ contains
         if (info%failed()) return
       end if
       call subtract_over(probe%segments, energy/curvature, probe%work, probe%residual)
-      call remove_rigid_part(scene, probe%prescribed, probe%projection, probe%segments, probe%residual)
+      call remove_rigid_part(scene, probe%projection, probe%segments, probe%residual)
     end do
     value = probe%lanczos%smallest()/amplification
   end subroutine find_smallest_value

@@ -4,8 +4,8 @@
 !> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero. With other rigid
 !> modes the resultants are kept, and the gaps become a rigid motion, which displacements then include.
 module fuge_projected_gradients
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, &
-    find_least_magnitude, find_penetration, is_accurate, iterate_pass, project_residual, remove_rigid_part
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, evaluate_iterate, find_least_magnitude, &
+    find_penetration, is_accurate, iterate_pass, project_residual, remove_rigid_part
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: add_scaled_over, center_over, dot_and_sum_over, dot_over, max_abs_over
@@ -62,7 +62,7 @@ contains
     iterate%converged = .false.
     call iterate%lanczos%restart()
     iterate%unbounded = .false.
-    if (iterate%prescribed) iterate%start = iterate%force
+    if (allocated(iterate%start)) iterate%start = iterate%force
     preconditioned = operator%has_preconditioner()
     call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
@@ -151,7 +151,7 @@ contains
       call preconditioner%apply_with_modes(operator, iterate%segments, iterate%projection, iterate%residual, &
                                            iterate%work, energy, info)
     else
-      call preconditioner%apply(operator, iterate%segments, .not. iterate%prescribed, iterate%residual, iterate%work, &
+      call preconditioner%apply(operator, iterate%segments, .not. scene%prescribed, iterate%residual, iterate%work, &
                                 energy, info)
     end if
   end subroutine precondition_residual
@@ -173,22 +173,22 @@ contains
     logical :: none, suspect
 
     step_length = 0.0_dp
-    call compute_displacement(operator, counts_datum(scene, iterate), iterate%direction, iterate%work, info)
+    call compute_displacement(operator, scene%counts_datum(), iterate%direction, iterate%work, info)
     if (info%failed()) return
-    if (iterate%prescribed) call find_softness(operator, scene, iterate, info)
+    if (scene%prescribed) call find_softness(operator, scene, iterate, info)
     if (allocated(scene%modes) .and. .not. info%failed()) call remove_rigid_motion(iterate, rigid_motion)
     call dot_and_sum_over(iterate%segments, iterate%direction, iterate%work, curvature, total)
     ! Under a load alone, forces do not grow on the way to a direction without energy.
     suspect = iterate%lanczos%is_suspect(curvature/energy)
-    if (suspect .and. .not. iterate%prescribed) call find_softness(operator, scene, iterate, info)
+    if (suspect .and. .not. scene%prescribed) call find_softness(operator, scene, iterate, info)
     if (info%failed()) return
-    none = iterate%prescribed .or. suspect
+    none = scene%prescribed .or. suspect
     if (none) none = stores_no_energy(iterate, curvature)
     if (none) then
       call leave_null_direction(scene, tolerance, energy, iterate)
     else if (curvature > 0.0_dp) then
       step_length = energy/curvature
-      if (iterate%prescribed) total = 0.0_dp
+      if (scene%prescribed) total = 0.0_dp
       call take_step(scene, step_length, total/real(iterate%segments%points, dp), iterate)
       if (allocated(scene%modes)) iterate%rigid_motion = iterate%rigid_motion - step_length*rigid_motion
     else
@@ -228,7 +228,7 @@ contains
       iterate%unprojected = max(iterate%unprojected, iterate%residual_norm)
       if (iterate%residual_norm < SMALL*iterate%unprojected) call project_residual(scene, iterate)
     end if
-    if (iterate%prescribed) return
+    if (scene%prescribed) return
     ! A mean left by rounding would grow, and without a preconditioner change the sum of the forces.
     rest = total/real(iterate%segments%points, dp)
     call center_over(iterate%segments, rest, iterate%residual, iterate%residual_norm)
@@ -261,8 +261,8 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: curvature
 
-    call remove_rigid_part(scene, iterate%prescribed, iterate%projection, iterate%segments, iterate%direction)
-    call compute_displacement(operator, counts_datum(scene, iterate), iterate%direction, iterate%work, info)
+    call remove_rigid_part(scene, iterate%projection, iterate%segments, iterate%direction)
+    call compute_displacement(operator, scene%counts_datum(), iterate%direction, iterate%work, info)
     if (.not. info%failed()) call find_softness(operator, scene, iterate, info)
     if (info%failed()) return
     curvature = dot_over(iterate%segments, iterate%direction, iterate%work)

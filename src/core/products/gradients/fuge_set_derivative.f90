@@ -1,8 +1,7 @@
 !> Derivatives of a solution by products: conjugate gradients on its contact set.
 module fuge_set_derivative
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, evaluate_iterate, &
-    is_accurate, start_iterate
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, evaluate_iterate, is_accurate, start_iterate
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: max_abs_over
@@ -149,7 +148,7 @@ contains
       if (.not. info%failed()) call iterate%projection%correct_resultants(scene%modes, scene%load, iterate%segments, &
                                                                           iterate%force, possible)
     end if
-    if (.not. info%failed()) call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, &
+    if (.not. info%failed()) call compute_displacement(operator, scene%counts_datum(), iterate%force, &
                                                        iterate%displacement, info)
   end subroutine correct_forces
 

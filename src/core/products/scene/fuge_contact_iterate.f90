@@ -14,7 +14,7 @@ module fuge_contact_iterate
   implicit none
   private
 
-  public :: compute_displacement, counts_datum, deformed_gap, evaluate_iterate, find_least_magnitude, &
+  public :: compute_displacement, deformed_gap, evaluate_iterate, find_least_magnitude, &
     find_penetration, is_accurate, largest_rigid_magnitude, overlap_at, project_residual, relative_error, &
     remove_rigid_part, rounding_force, start_iterate
 
@@ -38,8 +38,6 @@ module fuge_contact_iterate
     !> Points whose force is at its limit of the lower stop, 1, or of the upper one, -1, else 0, (n): they are open, but
     !> have a force. Allocated where forces have limits.
     integer, allocatable :: limited(:)
-    !> No translation is free, or it is one of several modes.
-    logical :: prescribed = .false.
     !> The rigid motion: the mean of gap plus displacement over the contact set; 0 if prescribed.
     real(dp) :: motion = 0.0_dp
     !> Motions in the modes of the scene, (m); allocated where it has any.
@@ -180,7 +178,6 @@ contains
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
     iterate%segments%space = scene%rows%point_space
-    iterate%prescribed = scene%prescribed
     if (allocated(iterate%at_upper)) iterate%at_upper = .false.
     if (allocated(iterate%limited)) then
       iterate%limited = 0
@@ -307,16 +304,15 @@ contains
       return
     end if
     mean = 0.0_dp
-    if (.not. iterate%prescribed) mean = sum_over(iterate%segments, iterate%residual)/real(iterate%segments%points, dp)
+    if (.not. scene%prescribed) mean = sum_over(iterate%segments, iterate%residual)/real(iterate%segments%points, dp)
     call center_over(iterate%segments, mean, iterate%residual, iterate%residual_norm)
     iterate%motion = iterate%motion + mean
   end subroutine project_residual
 
   !> Subtract from `values` (n), on the contact set, their components in the free rigid motions: with modes in those of
-  !> the set, of which `projection` is the basis, else in the translation unless it is `prescribed`.
-  subroutine remove_rigid_part(scene, prescribed, projection, segments, values)
+  !> the set, of which `projection` is the basis, else in the translation unless it is prescribed.
+  subroutine remove_rigid_part(scene, projection, segments, values)
     type(contact_scene), intent(in) :: scene
-    logical, intent(in) :: prescribed
     type(mode_projection), intent(in) :: projection
     type(contact_segments), intent(in) :: segments
     real(dp), intent(inout), contiguous :: values(:)
@@ -327,7 +323,7 @@ contains
       allocate (factors(size(scene%load)))
       call projection%components(segments, values, factors)
       call projection%subtract_on(segments, factors, values)
-    else if (.not. prescribed) then
+    else if (.not. scene%prescribed) then
       mean = sum_over(segments, values)/real(segments%points, dp)
       call center_over(segments, mean, values, largest_ignored)
     end if
@@ -420,17 +416,17 @@ contains
     real(dp), allocatable :: elastic(:)
     real(dp) :: offset
 
-    if (iterate%prescribed .or. allocated(scene%modes)) call new_lengths(scene, elastic, info)
+    if (scene%prescribed .or. allocated(scene%modes)) call new_lengths(scene, elastic, info)
     if (info%failed()) return
     offset = 0.0_dp
     ! As in the certificate, without the displacement by the datum, which cancels against the motion.
-    if (counts_datum(scene, iterate)) offset = operator%datum()*scene%rows%total(sum(iterate%force))
+    if (scene%counts_datum()) offset = operator%datum()*scene%rows%total(sum(iterate%force))
     if (allocated(scene%modes)) then
       iterate%rounding = RIGID_ROUNDINGS*epsilon(offset)*largest_rigid_magnitude(scene, iterate)
       call add_magnitudes(operator, scene, offset, iterate, elastic, info)
       if (info%failed()) return
       iterate%least_magnitude = least_over(iterate%segments, iterate%work)
-    else if (iterate%prescribed) then
+    else if (scene%prescribed) then
       elastic = iterate%displacement - offset
       call operator%magnitude(iterate%force, elastic, iterate%work)
       iterate%least_magnitude = least_sum(scene, iterate, offset)
@@ -578,15 +574,6 @@ contains
       rounding = max(rounding, NO_LENGTH*(length/iterate%softness))
     end if
   end function rounding_force
-
-  !> Do displacements include those by the operator's datum? Only where no free motion absorbs them.
-  pure function counts_datum(scene, iterate)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
-    logical :: counts_datum
-
-    counts_datum = iterate%prescribed .and. .not. scene%absorbs_datum
-  end function counts_datum
 
   !> Displacements by `force`, both (n), and by the operator's datum if `with_datum`. Errors: those of the operator.
   subroutine compute_displacement(operator, with_datum, force, displacement, info)

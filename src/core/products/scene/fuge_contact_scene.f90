@@ -44,6 +44,7 @@ module fuge_contact_scene
     procedure :: find_range
     procedure :: limited_force
     procedure :: tied_points
+    procedure :: counts_datum
   end type contact_scene
 
   !> The gap of excluded points: no displacement closes it.
@@ -146,6 +147,14 @@ contains
       tied(k) = self%is_tied(k)
     end do
   end function tied_points
+
+  !> Do displacements include those by the operator's datum? Only where no free motion absorbs them.
+  pure function counts_datum(self)
+    class(contact_scene), intent(in) :: self
+    logical :: counts_datum
+
+    counts_datum = self%prescribed .and. .not. self%absorbs_datum
+  end function counts_datum
 
   !> The scene on the grid whose cells are 2**level times as wide as those of `finest`, with means over the points of
   !> a cell that take part. `possible` is false if no forces there carry the resultants. `rows`: those of the coarse

@@ -1,6 +1,6 @@
 !> Forces that are feasible: on the contact set only, of the right sign, within their limits, and with the resultants.
 module fuge_feasible_forces
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, counts_datum, iterate_pass
+  use fuge_contact_iterate, only: compute_displacement, contact_iterate, iterate_pass
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
@@ -28,7 +28,7 @@ contains
 
     call set_feasible_forces(scene, iterate, info)
     if (allocated(scene%modes)) iterate%rigid_motion = 0.0_dp
-    if (.not. info%failed()) call compute_displacement(operator, counts_datum(scene, iterate), iterate%force, &
+    if (.not. info%failed()) call compute_displacement(operator, scene%counts_datum(), iterate%force, &
                                                        iterate%displacement, info)
     ! Forces to start from may be the rounding of those under another load.
     if (scene%is_unloaded() .and. .not. info%failed()) then
@@ -50,7 +50,7 @@ contains
     call clip_forces(scene, iterate)
     if (allocated(scene%modes)) then
       call restore_resultants(scene, iterate, info)
-    else if (.not. iterate%prescribed) then
+    else if (.not. scene%prescribed) then
       if (scene%has_limits()) then
         call restore_load_within_limits(scene, iterate)
       else
