@@ -1,6 +1,7 @@
 !> An operator for which contact problems have closed forms: the force of a point displaces that point alone.
 module independent_springs
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, start_iterate
+  use fuge_contact_displacement, only: compute_displacement
+  use fuge_contact_iterate, only: contact_iterate, start_iterate
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator

@@ -3,7 +3,7 @@
 !> On a periodic surface displacements count from their mean, so that equal forces displace nothing.
 !> In complete contact only the differences of the forces then follow from the gaps.
 module fuge_complete_contact
-  use fuge_contact_iterate, only: compute_displacement
+  use fuge_contact_displacement, only: compute_displacement
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator

@@ -5,15 +5,18 @@
 !> stop making progress, a primal active-set method exchanges one point at a time: it lowers the
 !> energy in each step and so terminates.
 module fuge_contact_set_search
-  use, intrinsic :: iso_fortran_env, only: int8
   use fuge_blocking_step, only: is_tensile, step_to_blocking
   use fuge_complete_contact, only: equal_forces_displace_nothing
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, evaluate_iterate, is_accurate, rounding_force
+  use fuge_conjugate_gradients, only: conjugate_gradients
+  use fuge_contact_displacement, only: compute_displacement
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_LIMITED_LOWER, FUGE_LIMITED_UPPER, &
-    FUGE_OPEN
+  use fuge_contact_set, only: contact_set, find_states
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, FUGE_OPEN
   use fuge_feasible_forces, only: make_feasible
+  use fuge_iterate_evaluation, only: evaluate_iterate
+  use fuge_iterate_lengths, only: iterate_lengths
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
   use fuge_limited_descent, only: descend_within_limits
@@ -23,7 +26,7 @@ module fuge_contact_set_search
   use fuge_number_text, only: index_text
   use fuge_operator_type, only: fuge_operator
   use fuge_projected_gradients, only: run_projected_gradients
-  use fuge_search_settings, only: note_least_compliance, search_settings, MAX_STALLS, SAFETY, WRONG_ON_COARSE
+  use fuge_search_settings, only: search_settings, MAX_STALLS, SAFETY, WRONG_ON_COARSE
   use fuge_single_search, only: find_in_single, suits_single
   use fuge_stall_counter, only: stall_counter
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NOT_DEFINITE
@@ -32,7 +35,7 @@ module fuge_contact_set_search
   implicit none
   private
 
-  public :: find_contact_set, find_states, note_states, report_unbounded
+  public :: find_contact_set, report_unbounded
 
   !> Limits whose sum is beyond the load by this fraction carry just the load.
   real(dp), parameter :: NEARLY = 1.0e-8_dp
@@ -119,7 +122,7 @@ contains
     else if (prepared) then
       return
     else
-      call choose_contact(scene, iterate)
+      call choose_contact(scene, iterate%contact_set)
     end if
     if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
   end subroutine choose_first_set
@@ -144,16 +147,16 @@ contains
                               info)
     if (info%failed()) return
     search%fresh = search%fresh .and. info%products == products
-    wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
+    wrong = count_wrong_points(scene, penetration_noise(settings, iterate%lengths), iterate)
     if (settings%coarse_grid) search%done = wrong <= WRONG_ON_COARSE*scene%rows%total_count(count(iterate%contact))
     ! Without a step the displacements are still those of a product with feasible forces.
-    if (wrong == 0) search%done = search%done .or. (iterate%converged .and. search%fresh)
+    if (wrong == 0) search%done = search%done .or. (iterate%gradients%converged .and. search%fresh)
     if (search%done) return
-    if (wrong == 0 .and. (search%to_tolerance .or. iterate%converged)) then
+    if (wrong == 0 .and. (search%to_tolerance .or. iterate%gradients%converged)) then
       call confirm_contact_set(operator, settings, scene, search%previous_residual, iterate, confirmed, info)
       if (info%failed()) return
       ! The lengths that decide may have been those of much larger forces at the start.
-      if (confirmed) wrong = count_wrong_points(scene, penetration_noise(settings, iterate), iterate)
+      if (confirmed) wrong = count_wrong_points(scene, penetration_noise(settings, iterate%lengths), iterate)
       search%done = confirmed .and. wrong == 0
     end if
     search%to_tolerance = wrong == 0
@@ -171,24 +174,24 @@ contains
     logical :: in_row
 
     if (scene%has_limits()) then
-      call exchange_limited_points(scene, penetration_noise(settings, iterate), iterate)
+      call exchange_limited_points(scene, penetration_noise(settings, iterate%lengths), iterate)
     else
       cells = operator%grid()
       in_row = all(cells > 0) .and. any(cells == 1)
-      call exchange_wrong_points(scene, penetration_noise(settings, iterate), &
+      call exchange_wrong_points(scene, penetration_noise(settings, iterate%lengths), &
                                  in_row .and. 2*search%stalls%left > MAX_STALLS, iterate, info)
     end if
     if (info%failed()) return
-    call begin_new_set(search, iterate)
+    call begin_new_set(search, iterate%gradients)
     call make_feasible(operator, scene, iterate, info)
   end subroutine choose_next_set
 
   !> Residuals and compliances of another set tell nothing of this one.
-  pure subroutine begin_new_set(search, iterate)
+  pure subroutine begin_new_set(search, gradients)
     type(set_search), intent(inout) :: search
-    type(contact_iterate), intent(inout) :: iterate
+    type(conjugate_gradients), intent(inout) :: gradients
 
-    iterate%least_compliance = 0.0_dp
+    gradients%least_compliance = 0.0_dp
     search%previous_residual = huge(search%previous_residual)
     search%fresh = .true.
   end subroutine begin_new_set
@@ -220,8 +223,8 @@ contains
     call set_feasible_start(operator, scene, iterate, info)
     if (.not. info%failed()) call descend_within_limits(operator, scene, monitor, iterate, info)
     if (info%failed()) return
-    call choose_contact(scene, iterate)
-    call begin_new_set(search, iterate)
+    call choose_contact(scene, iterate%contact_set)
+    call begin_new_set(search, iterate%gradients)
     call search%stalls%start(MAX_STALLS)
     call make_feasible(operator, scene, iterate, info)
   end subroutine leave_stall
@@ -325,15 +328,15 @@ contains
       call preconditioner%set_modes(operator, iterate%projection, iterate%segments, iterate%contact, info)
     end if
     if (info%failed()) return
-    call set_tension_noise(settings, scene, iterate)
+    call set_tension_noise(settings, scene, iterate%lengths, iterate%gradients%softness, iterate%contact_set)
     call run_projected_gradients(operator, preconditioner, scene, SAFETY*settings%tolerance, to_tolerance, &
                                  iterate, info)
-    if (iterate%unbounded .and. .not. (settings%coarse_grid .or. info%failed())) then
-      call report_unbounded(maxloc(abs(iterate%direction), dim=1), scene%has_limits(), info)
+    if (iterate%gradients%unbounded .and. .not. (settings%coarse_grid .or. info%failed())) then
+      call report_unbounded(maxloc(abs(iterate%gradients%direction), dim=1), scene%has_limits(), info)
     end if
     if (info%failed()) return
     info%iterations = info%iterations + 1
-    if (.not. settings%coarse_grid) call note_least_compliance(iterate)
+    if (.not. settings%coarse_grid) call iterate%gradients%note_least_compliance()
     call tell_progress(scene, iterate, monitor, info)
   end subroutine solve_on_contact_set
 
@@ -373,51 +376,53 @@ contains
     call make_feasible(operator, scene, iterate, info)
     if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
-    call set_tension_noise(settings, scene, iterate)
-    confirmed = is_accurate(iterate, SAFETY*settings%tolerance) &
-                .or. .not. iterate%residual_norm < 0.5_dp*previous_residual
-    previous_residual = iterate%residual_norm
+    call set_tension_noise(settings, scene, iterate%lengths, iterate%gradients%softness, iterate%contact_set)
+    confirmed = iterate%lengths%is_accurate(SAFETY*settings%tolerance) &
+                .or. .not. iterate%lengths%residual_norm < 0.5_dp*previous_residual
+    previous_residual = iterate%lengths%residual_norm
   end subroutine confirm_contact_set
-
-  !> Penetrations below this are rounding.
-  pure function penetration_noise(settings, iterate) result(noise)
-    type(search_settings), intent(in) :: settings
-    type(contact_iterate), intent(in) :: iterate
-    real(dp) :: noise
-
-    noise = SAFETY**2*settings%tolerance*iterate%least_magnitude + iterate%rounding
-  end function penetration_noise
 
   !> Set the tension that is rounding. Only with several modes, where a point without force may be the one that resists
   !> a motion.
-  subroutine set_tension_noise(settings, scene, iterate)
+  subroutine set_tension_noise(settings, scene, lengths, softness, set)
     type(search_settings), intent(in) :: settings
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(inout) :: iterate
+    type(iterate_lengths), intent(in) :: lengths
+    real(dp), intent(in) :: softness
+    type(contact_set), intent(inout) :: set
+    real(dp) :: largest
 
     if (.not. allocated(scene%modes)) then
       ! The last points carry what a sum leaves of the load, with its rounding.
-      if (carry_just_the_load(scene)) iterate%tension_noise = ROUNDINGS*epsilon(1.0_dp)*sqrt(real(scene%points(), dp))
+      if (carry_just_the_load(scene)) set%tension_noise = ROUNDINGS*epsilon(1.0_dp)*sqrt(real(scene%points(), dp))
       return
     end if
-    iterate%tension_noise = max(tension_by_rounding(settings, scene, iterate), rounding_force(scene, iterate))
+    largest = scene%rows%largest(maxval(abs(set%force)))
+    set%tension_noise = max(tension_by_rounding(settings, lengths, softness, largest), scene%rounding_force(softness))
   end subroutine set_tension_noise
 
-  !> Tensions up to this are rounding. They are taken out in the end, so that they may not displace by more than the
-  !> tolerance allows.
-  function tension_by_rounding(settings, scene, iterate) result(noise)
+  !> Tensions up to this are rounding, where forces reach `largest`. They are taken out in the end, so that they may not
+  !> displace by more than the tolerance allows.
+  pure function tension_by_rounding(settings, lengths, softness, largest) result(noise)
     type(search_settings), intent(in) :: settings
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(iterate_lengths), intent(in) :: lengths
+    real(dp), intent(in) :: softness, largest
     real(dp) :: noise
-    real(dp) :: largest
+    real(dp) :: length
 
-    largest = scene%rows%largest(maxval(abs(iterate%force)))
+    length = penetration_noise(settings, lengths)
     noise = SAFETY**2*settings%tolerance*largest
-    if (noise*iterate%softness > penetration_noise(settings, iterate)) then
-      noise = max(penetration_noise(settings, iterate)/iterate%softness, ROUNDINGS*epsilon(noise)*largest)
-    end if
+    if (noise*softness > length) noise = max(length/softness, ROUNDINGS*epsilon(noise)*largest)
   end function tension_by_rounding
+
+  !> Penetrations below this are rounding.
+  pure function penetration_noise(settings, lengths) result(noise)
+    type(search_settings), intent(in) :: settings
+    type(iterate_lengths), intent(in) :: lengths
+    real(dp) :: noise
+
+    noise = lengths%allowed(SAFETY**2*settings%tolerance)
+  end function penetration_noise
 
   !> Primal active-set method (C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974,
   !> chapter 23), which exchanges one point at a time and lowers the energy.
@@ -451,26 +456,26 @@ contains
     newest = 0
     call make_feasible(operator, scene, iterate, info)
     if (allocated(scene%modes) .and. .not. info%failed()) then
-      call step_from_balance(scene, tied, feasible, noise, locked, state, iterate)
+      call step_from_balance(scene, tied, feasible, noise, locked, state, iterate%contact_set)
       locked = .false.
     end if
-    call choose_contact(scene, iterate)
+    call choose_contact(scene, iterate%contact_set)
     if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
     do while (.not. info%failed())
       feasible = iterate%force
       call solve_on_contact_set(operator, settings, preconditioner, scene, .true., monitor, iterate, info)
       if (info%failed()) exit
       noise = iterate%tension_noise
-      call find_states(iterate, state)
+      call find_states(iterate%contact_set, state)
       if (scene%rows%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
         call step_to_blocking(iterate%force, noise, tied, state, feasible, newest, locked, scene%rows%point_space)
         iterate%contact = state /= FUGE_OPEN
         iterate%force = feasible
       else
         if (found) call keep_lock(scene, newest, locked)
-        newest = deepest_open_point(scene, iterate, penetration_noise(settings, iterate), locked)
+        newest = deepest_open_point(scene, iterate, penetration_noise(settings, iterate%lengths), locked)
         found = scene%rows%anywhere(newest > 0)
-        if (.not. (found .and. iterate%converged)) exit
+        if (.not. (found .and. iterate%gradients%converged)) exit
         call join_contact(scene, newest, iterate)
         ! A penetration at the only open point is rounding.
         if (has_undetermined_forces(operator, scene, iterate, info)) then
@@ -478,7 +483,7 @@ contains
           exit
         end if
       end if
-      iterate%least_compliance = 0.0_dp
+      iterate%gradients%least_compliance = 0.0_dp
       if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
     end do
     if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
@@ -510,15 +515,15 @@ contains
       feasible = iterate%force
       call solve_on_contact_set(operator, settings, preconditioner, scene, .true., monitor, iterate, info)
       if (info%failed()) exit
-      if (greatest_excess(scene, iterate) > 0.0_dp) then
-        call step_to_limit(scene, feasible, newest, locked, iterate)
+      if (greatest_excess(scene, iterate%contact_set) > 0.0_dp) then
+        call step_to_limit(scene, feasible, newest, locked, iterate%contact_set)
       else
         call keep_lock(scene, newest, locked)
-        if (.not. iterate%converged) exit
-        call return_deepest(scene, penetration_noise(settings, iterate), locked, iterate, newest)
+        if (.not. iterate%gradients%converged) exit
+        call return_deepest(scene, penetration_noise(settings, iterate%lengths), locked, iterate, newest)
         if (.not. scene%rows%anywhere(newest > 0)) exit
       end if
-      iterate%least_compliance = 0.0_dp
+      iterate%gradients%least_compliance = 0.0_dp
       call make_feasible(operator, scene, iterate, info)
     end do
     if (.not. info%failed()) call make_feasible(operator, scene, iterate, info)
@@ -537,9 +542,9 @@ contains
     call make_feasible(operator, scene, iterate, info)
     if (info%failed()) return
     ! Forces of the right resultants may be beyond their limits.
-    excess = greatest_excess(scene, iterate)
+    excess = greatest_excess(scene, iterate%contact_set)
     if (.not. (allocated(scene%modes) .or. excess > 0.0_dp)) return
-    call set_balanced_forces(scene, iterate)
+    call set_balanced_forces(scene, iterate%contact_set)
     call make_feasible(operator, scene, iterate, info)
   end subroutine set_feasible_start
 
@@ -569,50 +574,24 @@ contains
 
   !> Forces with the resultants but perhaps of the wrong sign become feasible ones: a step towards them from
   !> scene%balance, until the first force changes its sign. `force`, `noise`, `locked` and `state` (n) are work space.
-  subroutine step_from_balance(scene, tied, force, noise, locked, state, iterate)
+  subroutine step_from_balance(scene, tied, force, noise, locked, state, set)
     type(contact_scene), intent(in) :: scene
     logical, intent(in) :: tied(:)
     real(dp), intent(out) :: force(:), noise(:)
     logical, intent(out) :: locked(:)
     integer, intent(out) :: state(:)
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_set), intent(inout) :: set
 
     force = scene%balance
     noise = 0.0_dp
     locked = .false.
-    call find_states(iterate, state)
+    call find_states(set, state)
     ! Where the balance is at the other stop, or open, it decides.
     where (abs(force) > 0.0_dp) state = merge(FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP, force > 0.0_dp)
-    if (scene%rows%anywhere(any(is_tensile(iterate%force, noise, state, tied)))) then
-      call step_to_blocking(iterate%force, noise, tied, state, force, 0, locked, scene%rows%point_space)
-      iterate%force = force
+    if (scene%rows%anywhere(any(is_tensile(set%force, noise, state, tied)))) then
+      call step_to_blocking(set%force, noise, tied, state, force, 0, locked, scene%rows%point_space)
+      set%force = force
     end if
   end subroutine step_from_balance
-
-  !> The `state` of each point, (n).
-  pure subroutine find_states(iterate, state)
-    type(contact_iterate), intent(in) :: iterate
-    integer, intent(out) :: state(:)
-
-    state = merge(FUGE_AT_LOWER_STOP, FUGE_OPEN, iterate%contact)
-    if (allocated(iterate%at_upper)) where (iterate%contact .and. iterate%at_upper) state = FUGE_AT_UPPER_STOP
-    if (.not. allocated(iterate%limited)) return
-    where (iterate%limited > 0) state = FUGE_LIMITED_LOWER
-    where (iterate%limited < 0) state = FUGE_LIMITED_UPPER
-  end subroutine find_states
-
-  !> The same in little memory, to be kept from one solve to the next.
-  pure subroutine note_states(iterate, state)
-    type(contact_iterate), intent(in) :: iterate
-    integer(int8), intent(out) :: state(:)
-
-    state = merge(int(FUGE_AT_LOWER_STOP, int8), int(FUGE_OPEN, int8), iterate%contact)
-    if (allocated(iterate%at_upper)) then
-      where (iterate%contact .and. iterate%at_upper) state = int(FUGE_AT_UPPER_STOP, int8)
-    end if
-    if (.not. allocated(iterate%limited)) return
-    where (iterate%limited > 0) state = int(FUGE_LIMITED_LOWER, int8)
-    where (iterate%limited < 0) state = int(FUGE_LIMITED_UPPER, int8)
-  end subroutine note_states
 
 end module fuge_contact_set_search

@@ -260,7 +260,7 @@ contains
     window_info%products = info%products
     window_info%preconditionings = info%preconditionings
     info = window_info
-    least_compliance = iterate%least_compliance
+    least_compliance = iterate%gradients%least_compliance
     if (.not. info%failed()) call move_alloc(iterate%force, force)
   end subroutine solve_on_window
 

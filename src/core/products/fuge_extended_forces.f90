@@ -19,8 +19,8 @@ contains
   !> the force that the distance from their stop stands for, or below zero by it. A scene with limits. Points open
   !> between two stops keep no force, which of either sign would start at one of them.
   !>
-  !> The force per length is that of short waves, iterate%amplification. By more than the mean magnitude of the forces
-  !> no force is extended: beside a step of the gap the forces of the neighbours do not fall towards it.
+  !> The force per length is that of short waves, iterate%gradients%amplification. By more than the mean magnitude of
+  !> the forces no force is extended: beside a step of the gap the forces of the neighbours do not fall towards it.
   subroutine extend_forces(scene, iterate)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(inout) :: iterate
@@ -30,7 +30,7 @@ contains
     most = mean_magnitude(scene, iterate%force)
     do k = 1, size(iterate%force)
       if (iterate%contact(k)) cycle
-      extension = min(iterate%amplification*max(-overlap_at(scene, iterate, k), 0.0_dp), most)
+      extension = min(iterate%gradients%amplification*max(-overlap_at(scene, iterate, k), 0.0_dp), most)
       if (iterate%limited(k) /= 0) then
         iterate%force(k) = iterate%force(k) + sign(extension, real(iterate%limited(k), dp))
       else if (scene%play(k) >= huge(1.0_dp)) then

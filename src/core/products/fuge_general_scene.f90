@@ -3,10 +3,10 @@
 module fuge_general_scene
   use fuge_canonical_problem, only: canonical_problem
   use fuge_constants, only: LARGEST_EXPONENT
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap, rounding_force
+  use fuge_contact_iterate, only: contact_iterate, deformed_gap
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_contact_segments, only: contact_segments
-  use fuge_contact_set_search, only: find_states
+  use fuge_contact_set, only: find_states
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
   use fuge_feasible_forces, only: clip_forces
@@ -166,11 +166,11 @@ contains
     end if
     call canonical%space%agree(info)
     if (info%failed()) return
-    call find_states(iterate, reduced%state)
+    call find_states(iterate%contact_set, reduced%state)
     if (scene%has_limits()) then
-      call clip_forces(scene, iterate)
+      call clip_forces(scene, iterate%contact_set)
     else
-      call drop_rounding(scene, reduced%state, iterate, info)
+      call drop_rounding(scene, reduced%state, iterate%gradients%softness, iterate%force, info)
     end if
     if (info%failed()) return
     reduced%force = scaling%load*iterate%force
@@ -198,10 +198,11 @@ contains
 
   !> Forces that are rounding, or that pull at their stop by rounding, become zero. The other forces make up for what a
   !> resultant loses by that: beside a body under a large load, another one may have none. Error: FUGE_ERR_MEMORY.
-  subroutine drop_rounding(scene, state, iterate, info)
+  subroutine drop_rounding(scene, state, softness, force, info)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: state(:)
-    type(contact_iterate), intent(inout) :: iterate
+    real(dp), intent(in) :: softness
+    real(dp), intent(inout), contiguous :: force(:)
     type(fuge_info), intent(inout) :: info
     type(contact_segments) :: segments
     type(mode_projection) :: projection
@@ -209,9 +210,9 @@ contains
     logical :: possible, pulls
     integer :: stat
 
-    call clear_rounding(scene, state, iterate, pulls)
+    call clear_rounding(scene, state, softness, force, pulls)
     if (.not. (pulls .and. allocated(scene%modes))) return
-    allocate (dropped, source=iterate%force, stat=stat)
+    allocate (dropped, source=force, stat=stat)
     call require_memory(stat, 'the forces of', size(state), 'points', info)
     segments%space = scene%rows%point_space
     call segments%space%agree(info)
@@ -219,30 +220,30 @@ contains
     call segments%find(abs(dropped) > 0.0_dp, info)
     if (.not. info%failed()) call projection%set(scene%modes, segments, info)
     if (info%failed()) return
-    call projection%correct_resultants(scene%modes, scene%load, segments, iterate%force, possible)
+    call projection%correct_resultants(scene%modes, scene%load, segments, force, possible)
     if (possible) then
-      call clear_rounding(scene, state, iterate, pulls)
+      call clear_rounding(scene, state, softness, force, pulls)
     else
-      iterate%force = dropped
+      force = dropped
     end if
   end subroutine drop_rounding
 
   !> Set forces to zero that are rounding, or that pull at their stop; `pulls` tells whether any of these did.
-  subroutine clear_rounding(scene, state, iterate, pulls)
+  subroutine clear_rounding(scene, state, softness, force, pulls)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: state(:)
-    type(contact_iterate), intent(inout) :: iterate
+    real(dp), intent(in) :: softness
+    real(dp), intent(inout) :: force(:)
     logical, intent(out) :: pulls
     real(dp) :: least
     integer :: k
 
     pulls = .false.
-    least = max(ROUNDINGS*epsilon(least)*scene%rows%largest(maxval(abs(iterate%force))), &
-                rounding_force(scene, iterate))
+    least = max(ROUNDINGS*epsilon(least)*scene%rows%largest(maxval(abs(force))), scene%rounding_force(softness))
     do k = 1, size(state)
-      if (abs(iterate%force(k)) <= least) iterate%force(k) = 0.0_dp
-      if (iterate%force(k)*real(state(k), dp) < 0.0_dp .and. .not. scene%is_tied(k)) then
-        iterate%force(k) = 0.0_dp
+      if (abs(force(k)) <= least) force(k) = 0.0_dp
+      if (force(k)*real(state(k), dp) < 0.0_dp .and. .not. scene%is_tied(k)) then
+        force(k) = 0.0_dp
         pulls = .true.
       end if
     end do

@@ -7,14 +7,16 @@ module fuge_iterative_engine
   use fuge_canonical_problem, only: canonical_problem
   use fuge_complete_contact, only: equal_forces_displace_nothing
   use fuge_constants, only: LARGEST_EXPONENT
-  use fuge_contact_iterate, only: contact_iterate, evaluate_iterate, start_iterate
+  use fuge_contact_iterate, only: contact_iterate, start_iterate
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_set_search, only: find_contact_set, note_states, report_unbounded
+  use fuge_contact_set, only: note_states
+  use fuge_contact_set_search, only: find_contact_set, report_unbounded
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_contact_window, only: solve_in_window, survey_level
   use fuge_engine_messages, only: idle_forces, report_closed_gap, SINGULAR_AND_UNRESISTED, SINGULAR_ON_CONTACT
   use fuge_feasible_forces, only: make_feasible
   use fuge_general_scene, only: assemble_general, set_general_scene
+  use fuge_iterate_evaluation, only: evaluate_iterate
   use fuge_iterated_set, only: iterated_set
   use fuge_iteration_error, only: estimated_force_error, find_rounding
   use fuge_kinds, only: dp
@@ -107,9 +109,9 @@ contains
     if (info%failed()) return
     fine_products = fine_products + info%products
     if (settings%prepared) then
-      call history%record_warm(iterate%start_error, fine_products)
+      call history%record_warm(iterate%lengths%start_error, fine_products)
     else
-      call history%record_cold(iterate%start_error, options%tolerance, coarse_products, fine_products)
+      call history%record_cold(iterate%lengths%start_error, options%tolerance, coarse_products, fine_products)
     end if
     if (is_general(problem)) then
       call assemble_general(operator, problem, canonical, scene, scaling, iterate, solution, info)
@@ -121,7 +123,7 @@ contains
     call judge_forces(operator, scene, length, force, monitor, iterate, info)
     if (info%failed()) return
     if (.not. is_general(problem)) call assemble_simple(scene, scaling, iterate, solution)
-    last%least_compliance = iterate%least_compliance
+    last%least_compliance = iterate%gradients%least_compliance
     last%tolerance = options%tolerance
   end subroutine solve_by_iteration
 
@@ -179,7 +181,7 @@ contains
     info%force_error = estimated_force_error(iterate, pair_compliance, length, force)
   end subroutine judge_forces
 
-  !> The least compliance of the contact set, by which errors of the forces are judged: iterate%least_compliance and
+  !> The least compliance of the contact set, by which errors of the forces are judged: that of iterate%gradients and
   !> `pair_compliance` of the operator; and whether two points are `repeated`: then the forces are not unique. `length`
   !> as from `find_rounding`. Errors: those of the operator, FUGE_ERR_MEMORY, FUGE_ERR_CANCELLED.
   subroutine find_compliance(operator, scene, length, monitor, iterate, pair_compliance, repeated, info)
@@ -202,7 +204,7 @@ contains
     end if
     preconditioned = operator%has_preconditioner()
     ! On a grid the preconditioner is close to an inverse, and what conjugate gradients have found is enough.
-    enough = preconditioned .and. iterate%least_compliance > 0.0_dp
+    enough = preconditioned .and. iterate%gradients%least_compliance > 0.0_dp
     if (enough) enough = all(operator%grid() > 0)
     if (.not. enough) call probe_compliance(operator, scene, length, monitor, iterate, info)
     if (info%failed()) return
@@ -235,12 +237,12 @@ contains
     associate (space => iterate%segments%space)
       call space%agree(info)
       if (info%failed()) return
-      if (.not. iterate%least_compliance > 0.0_dp) then
-        if (space%everywhere(same)) iterate%least_compliance = last%least_compliance
+      if (.not. iterate%gradients%least_compliance > 0.0_dp) then
+        if (space%everywhere(same)) iterate%gradients%least_compliance = last%least_compliance
       end if
     end associate
-    call note_states(iterate, last%state)
-    last%least_compliance = iterate%least_compliance
+    call note_states(iterate%contact_set, last%state)
+    last%least_compliance = iterate%gradients%least_compliance
   end subroutine keep_set
 
   !> Start from earlier solutions if that promises to cost less than coarser grids: history%started_warm, with the
@@ -263,12 +265,12 @@ contains
     start = start/scaling%load
     call start_iterate(iterate, scene, start, info)
     if (info%failed()) return
-    call choose_contact(scene, iterate)
+    call choose_contact(scene, iterate%contact_set)
     if (scene%rows%anywhere(any(iterate%contact))) then
       call make_feasible(operator, scene, iterate, info)
       if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
       if (info%failed()) return
-      call history%judge(iterate%start_error)
+      call history%judge(iterate%lengths%start_error)
     end if
     if (.not. history%started_warm) call discard(iterate)
   end subroutine try_warm_start
@@ -277,7 +279,7 @@ contains
   subroutine discard(iterate)
     type(contact_iterate), intent(out) :: iterate
 
-    iterate%converged = .false.
+    iterate%gradients%converged = .false.
   end subroutine discard
 
   !> Start `iterate` by coarser grids, and where the contact is small by a window of the finest one; where the operator
@@ -304,7 +306,7 @@ contains
                           start, work, info)
     if (level > 0 .and. allocated(start) .and. .not. info%failed()) then
       call solve_in_window(operator, coarse_settings, settings, scene, level, monitor, start, work, solved, &
-                           iterate%least_compliance, info)
+                           iterate%gradients%least_compliance, info)
     end if
     if (.not. (solved .or. info%failed())) then
       call nested_iteration(operator, coarse_settings, scene, level - 1, 1, monitor, start, work, info)

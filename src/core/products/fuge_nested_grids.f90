@@ -144,7 +144,7 @@ contains
     if (.not. info%failed()) call find_contact_set(operator, settings, coarse, monitor, iterate, info)
     if (info%failed()) return
     ! Tensile forces that a coarse grid leaves help to interpolate, but with play would start at the wrong stop.
-    if (allocated(coarse%play)) call clip_forces(coarse, iterate)
+    if (allocated(coarse%play)) call clip_forces(coarse, iterate%contact_set)
     if (coarse%has_limits()) call extend_forces(coarse, iterate)
     call move_alloc(iterate%force, start)
   end subroutine solve_on_grid

@@ -1,7 +1,8 @@
 !> Does a contact that was found on a window solve the whole grid? One product tells, and no search on the whole grid
 !> needs its memory.
 module fuge_window_confirmation
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, is_accurate, relative_error
+  use fuge_contact_displacement, only: compute_displacement
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
@@ -47,7 +48,7 @@ contains
     ! Where points have magnitudes of their own, the search finds them.
     if (confirmed) confirmed = operator%common_magnitude(1.0_dp, 1.0_dp) > 0.0_dp
     if (.not. confirmed) return
-    call choose_contact(scene, iterate)
+    call choose_contact(scene, iterate%contact_set)
     call compute_displacement(operator, .false., iterate%force, iterate%displacement, info)
     if (.not. info%failed()) call iterate%segments%find(iterate%contact, info)
     confirmed = .not. info%failed() .and. iterate%segments%points > 0
@@ -60,19 +61,21 @@ contains
       pass%limit => scene%limit
     end if
     call pass%run(size(scene%gap), 2)
-    iterate%largest_magnitude = operator%common_magnitude(scene%rows%largest(pass%largest(2)), 1.0_dp)
-    iterate%motion = scene%rows%total(pass%total(1))/real(iterate%segments%points, dp)
-    pass%motion = iterate%motion
-    pass%knows_motion = .true.
-    call pass%run(size(scene%gap), 3)
-    found = [pass%largest(1), pass%largest(2), pass%largest(3)]
-    call scene%rows%raise(found)
-    iterate%residual_norm = found(1)
-    iterate%penetration = found(2)
-    iterate%least_magnitude = iterate%largest_magnitude - found(3)
-    iterate%start_error = relative_error(iterate)
-    iterate%converged = is_accurate(iterate, SAFETY*settings%tolerance)
-    confirmed = iterate%converged .and. iterate%penetration <= SAFETY**2*settings%tolerance*iterate%least_magnitude
+    associate (lengths => iterate%lengths)
+      lengths%largest_magnitude = operator%common_magnitude(scene%rows%largest(pass%largest(2)), 1.0_dp)
+      iterate%motion = scene%rows%total(pass%total(1))/real(iterate%segments%points, dp)
+      pass%motion = iterate%motion
+      pass%knows_motion = .true.
+      call pass%run(size(scene%gap), 3)
+      found = [pass%largest(1), pass%largest(2), pass%largest(3)]
+      call scene%rows%raise(found)
+      lengths%residual_norm = found(1)
+      lengths%penetration = found(2)
+      lengths%least_magnitude = lengths%largest_magnitude - found(3)
+      call lengths%note_start()
+      confirmed = lengths%is_accurate(SAFETY*settings%tolerance) &
+                  .and. lengths%penetration <= SAFETY**2*settings%tolerance*lengths%least_magnitude
+    end associate
   end subroutine confirm_window
 
   subroutine do_chunk(self, k, first, last)

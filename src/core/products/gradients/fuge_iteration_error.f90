@@ -7,10 +7,11 @@
 !> although the equations may hold exactly with it.
 module fuge_iteration_error
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_contact_iterate, only: contact_iterate, largest_rigid_magnitude
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: contact_segments, max_abs_over
   use fuge_kinds, only: dp
+  use fuge_least_magnitude, only: largest_rigid_magnitude
   use fuge_motion_rounding, only: exact_modes, gap_rounding_at, load_rounding, mode_rounding_at
   use fuge_problem_type, only: fuge_problem, fuge_solution
   implicit none
@@ -38,14 +39,14 @@ contains
     error = min(epsilon(error) + force/largest, 1.0_dp)
     ! Half of it, because the pair has the norm sqrt(2).
     compliance = 0.5_dp*pair_compliance
-    if (iterate%least_compliance > 0.0_dp) then
-      compliance = min(compliance, iterate%least_compliance)
+    if (iterate%gradients%least_compliance > 0.0_dp) then
+      compliance = min(compliance, iterate%gradients%least_compliance)
     else if (compliance >= 0.5_dp*huge(error)) then
       ! Forces that follow from equilibrium alone take no step.
       return
     end if
-    open = max(iterate%residual_norm, iterate%penetration) + length &
-           + epsilon(error)*iterate%largest_magnitude
+    open = max(iterate%lengths%residual_norm, iterate%lengths%penetration) + length &
+           + epsilon(error)*iterate%lengths%largest_magnitude
     if (open < compliance*largest) then
       error = min(max(open/compliance/largest, epsilon(error)) + force/largest, 1.0_dp)
     else

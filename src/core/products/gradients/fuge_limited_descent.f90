@@ -6,7 +6,8 @@
 !> E. G. Birgin, J. M. Martinez, M. Raydan, SIAM Journal on Optimization 10, 2000, with the exact step of a quadratic
 !> energy; the step along the gaps is that of J. Barzilai and J. M. Borwein).
 module fuge_limited_descent
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate
+  use fuge_contact_displacement, only: compute_displacement
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp

@@ -1,8 +1,10 @@
 !> Points on the wrong side where forces have limits: in contact although their force is beyond the range that its stop
 !> gives it, open although they penetrate a stop, or at their limit although the gap has come back to the stop.
 module fuge_limited_points
+  use fuge_conjugate_gradients, only: conjugate_gradients
   use fuge_contact_iterate, only: contact_iterate, overlap_at
   use fuge_contact_scene, only: contact_scene
+  use fuge_contact_set, only: contact_set, leave_stop, return_to_stop
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   implicit none
@@ -17,13 +19,13 @@ module fuge_limited_points
 contains
 
   !> The contact set and the points at their limits that the forces to start from suggest.
-  subroutine choose_limited_contact(scene, iterate)
+  subroutine choose_limited_contact(scene, set)
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_set), intent(inout) :: set
     integer :: k
 
     do k = 1, size(scene%gap)
-      associate (force => iterate%force(k), limited => iterate%limited(k))
+      associate (force => set%force(k), limited => set%limited(k))
         limited = 0
         ! Beyond a stop that takes no force a point is open; a tied one has no other state there.
         if (force > 0.0_dp .and. force >= scene%limit(k)) limited = merge(1, 0, scene%limit(k) > 0.0_dp .or. &
@@ -31,31 +33,31 @@ contains
         if (scene%play(k) < huge(force)) then
           if (force < 0.0_dp .and. -force >= scene%limit_upper(k)) limited = -1
         end if
-        iterate%at_upper(k) = force < 0.0_dp .and. scene%play(k) < huge(force) .and. .not. scene%is_tied(k)
-        iterate%contact(k) = limited == 0 .and. ((force > 0.0_dp .and. scene%limit(k) > 0.0_dp) &
-                                                 .or. iterate%at_upper(k) .or. scene%is_tied(k))
+        set%at_upper(k) = force < 0.0_dp .and. scene%play(k) < huge(force) .and. .not. scene%is_tied(k)
+        set%contact(k) = limited == 0 .and. ((force > 0.0_dp .and. scene%limit(k) > 0.0_dp) &
+                                             .or. set%at_upper(k) .or. scene%is_tied(k))
         if (allocated(scene%excluded)) then
           if (scene%excluded(k)) limited = 0
-          iterate%contact(k) = iterate%contact(k) .and. .not. scene%excluded(k)
+          set%contact(k) = set%contact(k) .and. .not. scene%excluded(k)
         end if
       end associate
     end do
     if (scene%prescribed) return
-    if (scene%rows%anywhere(any(iterate%contact) .or. any(iterate%limited /= 0))) return
-    iterate%contact = scene%limit > 0.0_dp
-    if (allocated(scene%excluded)) iterate%contact = iterate%contact .and. .not. scene%excluded
+    if (scene%rows%anywhere(any(set%contact) .or. any(set%limited /= 0))) return
+    set%contact = scene%limit > 0.0_dp
+    if (allocated(scene%excluded)) set%contact = set%contact .and. .not. scene%excluded
   end subroutine choose_limited_contact
 
   !> By how much a `force` at point `k`, in contact, is beyond the range that its stop gives it.
-  pure function excess_of(scene, iterate, k, force) result(excess)
+  pure function excess_of(scene, set, k, force) result(excess)
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_set), intent(in) :: set
     integer, intent(in) :: k
     real(dp), intent(in) :: force
     real(dp) :: excess
     real(dp) :: least, most
 
-    call scene%find_range(k, iterate%at_upper(k), least, most)
+    call scene%find_range(k, set%at_upper(k), least, most)
     excess = max(least - force, force - most)
   end function excess_of
 
@@ -68,7 +70,7 @@ contains
     logical :: is_wrong
 
     if (iterate%contact(k)) then
-      is_wrong = excess_of(scene, iterate, k, iterate%force(k)) > iterate%tension_noise
+      is_wrong = excess_of(scene, iterate%contact_set, k, iterate%force(k)) > iterate%tension_noise
     else
       is_wrong = overlap_at(scene, iterate, k) > noise
     end if
@@ -99,44 +101,12 @@ contains
     do k = 1, size(scene%gap)
       if (.not. is_wrong(scene, noise, iterate, k)) cycle
       if (iterate%contact(k)) then
-        call leave_stop(scene, k, iterate)
+        call leave_stop(scene, k, iterate%contact_set)
       else
-        call return_to_stop(scene, k, iterate)
+        call return_to_stop(scene, overlaps_lower(scene, iterate, k), k, iterate%contact_set)
       end if
     end do
   end subroutine exchange_limited_points
-
-  !> Point `k`, whose force is beyond its range, goes to its limit, or opens where the force changes its sign.
-  pure subroutine leave_stop(scene, k, iterate)
-    type(contact_scene), intent(in) :: scene
-    integer, intent(in) :: k
-    type(contact_iterate), intent(inout) :: iterate
-    real(dp) :: least, most
-
-    call scene%find_range(k, iterate%at_upper(k), least, most)
-    iterate%contact(k) = .false.
-    iterate%limited(k) = 0
-    if (iterate%force(k) > most .and. most > 0.0_dp) iterate%limited(k) = 1
-    if (iterate%force(k) < least .and. (least < 0.0_dp .or. scene%is_tied(k))) iterate%limited(k) = -1
-    if (scene%is_tied(k) .and. iterate%force(k) > most) iterate%limited(k) = 1
-  end subroutine leave_stop
-
-  !> Point `k` comes to the stop that it penetrates, or whose limit it leaves.
-  pure subroutine return_to_stop(scene, k, iterate)
-    type(contact_scene), intent(in) :: scene
-    integer, intent(in) :: k
-    type(contact_iterate), intent(inout) :: iterate
-    logical :: at_upper
-
-    if (iterate%limited(k) /= 0) then
-      at_upper = iterate%limited(k) < 0
-    else
-      at_upper = .not. overlaps_lower(scene, iterate, k)
-    end if
-    iterate%limited(k) = 0
-    iterate%contact(k) = .true.
-    iterate%at_upper(k) = at_upper .and. .not. scene%is_tied(k)
-  end subroutine return_to_stop
 
   !> Is the open point `k` below its lower stop, which has a force?
   pure function overlaps_lower(scene, iterate, k) result(overlaps)
@@ -149,48 +119,48 @@ contains
   end function overlaps_lower
 
   !> Forces within their limits that are in equilibrium with the load, and the states that belong to them.
-  subroutine set_balanced_forces(scene, iterate)
+  subroutine set_balanced_forces(scene, set)
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_set), intent(inout) :: set
     real(dp), allocatable :: most(:)
     real(dp) :: ignored(1)
 
     if (allocated(scene%modes)) then
-      iterate%force = scene%balance
+      set%force = scene%balance
     else if (scene%prescribed) then
-      iterate%force = 0.0_dp
+      set%force = 0.0_dp
     else
       allocate (most, source=scene%limit)
       if (allocated(scene%excluded)) where (scene%excluded) most = 0.0_dp
       call find_equilibrium(reshape(0.0_dp*most + 1.0_dp, [size(most), 1]), [1.0_dp], 0.0_dp*most, most, &
-                            iterate%force, ignored, sharing=scene%rows%point_space)
+                            set%force, ignored, sharing=scene%rows%point_space)
       ! An even share of a load that all limits just carry is beside these by rounding.
-      where (iterate%force >= (1.0_dp - ROUNDING)*most) iterate%force = most
+      where (set%force >= (1.0_dp - ROUNDING)*most) set%force = most
     end if
-    call choose_limited_contact(scene, iterate)
+    call choose_limited_contact(scene, set)
   end subroutine set_balanced_forces
 
-  !> From the feasible forces `start` (n) go towards those of the iterate, which are the solution of its contact set,
-  !> until the first one reaches the end of its range: that point leaves its stop, and the forces of the iterate are
+  !> From the feasible forces `start` (n) go towards those of the set, which are its solution, until the first one
+  !> reaches the end of its range: that point leaves its stop, and the forces of the set are
   !> feasible again. If that is `newest`, which has just come back to its stop, it came by rounding and is `locked` (n).
   !> `newest` is 0 where another rank has it.
-  subroutine step_to_limit(scene, start, newest, locked, iterate)
+  subroutine step_to_limit(scene, start, newest, locked, set)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: start(:)
     integer, intent(in) :: newest
     logical, intent(inout) :: locked(:)
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_set), intent(inout) :: set
     real(dp) :: fraction, least, most, step_length
     integer :: blocking, k
 
     step_length = huge(step_length)
     blocking = 0
     do k = 1, size(start)
-      if (.not. iterate%contact(k)) cycle
-      if (excess_of(scene, iterate, k, iterate%force(k)) <= iterate%tension_noise) cycle
-      call scene%find_range(k, iterate%at_upper(k), least, most)
-      fraction = min(abs(min(max(iterate%force(k), least), most) - start(k)) &
-                     /max(abs(iterate%force(k) - start(k)), tiny(most)), 1.0_dp)
+      if (.not. set%contact(k)) cycle
+      if (excess_of(scene, set, k, set%force(k)) <= set%tension_noise) cycle
+      call scene%find_range(k, set%at_upper(k), least, most)
+      fraction = min(abs(min(max(set%force(k), least), most) - start(k)) &
+                     /max(abs(set%force(k) - start(k)), tiny(most)), 1.0_dp)
       if (k == newest .and. .not. fraction > 0.0_dp) fraction = -1.0_dp
       if (fraction >= step_length) cycle
       step_length = fraction
@@ -202,9 +172,9 @@ contains
     if (step_length < 0.0_dp .and. blocking > 0) locked(blocking) = .true.
     step_length = max(step_length, 0.0_dp)
     do k = 1, size(start)
-      if (.not. iterate%contact(k)) cycle
-      if (k == blocking) call leave_stop(scene, k, iterate)
-      iterate%force(k) = start(k) + step_length*(iterate%force(k) - start(k))
+      if (.not. set%contact(k)) cycle
+      if (k == blocking) call leave_stop(scene, k, set)
+      set%force(k) = start(k) + step_length*(set%force(k) - start(k))
     end do
   end subroutine step_to_limit
 
@@ -241,7 +211,7 @@ contains
       point = k
     end do
     call keep_on_one_rank(scene, -greatest, point)
-    if (point > 0) call return_to_stop(scene, point, iterate)
+    if (point > 0) call return_to_stop(scene, overlaps_lower(scene, iterate, point), point, iterate%contact_set)
   end subroutine return_deepest
 
   !> Of the points at the limit of their lower stop, the one that is furthest above the stop comes back to it; only
@@ -262,28 +232,29 @@ contains
       point = k
     end do
     call keep_on_one_rank(scene, -furthest, point)
-    if (point > 0) call return_to_stop(scene, point, iterate)
+    if (point > 0) call return_to_stop(scene, overlaps_lower(scene, iterate, point), point, iterate%contact_set)
   end subroutine release_furthest
 
   !> The largest excess of a force in contact over its range; 0 if there is none.
-  function greatest_excess(scene, iterate) result(excess)
+  function greatest_excess(scene, set) result(excess)
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_set), intent(in) :: set
     real(dp) :: excess
     integer :: k
 
     excess = 0.0_dp
     do k = 1, size(scene%gap)
-      if (iterate%contact(k)) excess = max(excess, excess_of(scene, iterate, k, iterate%force(k)))
+      if (set%contact(k)) excess = max(excess, excess_of(scene, set, k, set%force(k)))
     end do
-    if (excess <= iterate%tension_noise) excess = 0.0_dp
+    if (excess <= set%tension_noise) excess = 0.0_dp
     excess = scene%rows%largest(excess)
   end function greatest_excess
 
   !> As `tension_is_decided`, for forces beyond their range.
-  function excess_is_decided(scene, iterate, decisive) result(decided)
+  function excess_is_decided(scene, set, gradients, decisive) result(decided)
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_set), intent(in) :: set
+    type(conjugate_gradients), intent(in) :: gradients
     real(dp), intent(in) :: decisive
     logical :: decided
     real(dp) :: extremes(2)
@@ -291,9 +262,9 @@ contains
 
     extremes = 0.0_dp
     do k = 1, size(scene%gap)
-      if (.not. iterate%contact(k)) cycle
-      extremes(1) = max(extremes(1), abs(iterate%work(k)))
-      extremes(2) = max(extremes(2), excess_of(scene, iterate, k, iterate%force(k) - iterate%work(k)))
+      if (.not. set%contact(k)) cycle
+      extremes(1) = max(extremes(1), abs(gradients%work(k)))
+      extremes(2) = max(extremes(2), excess_of(scene, set, k, set%force(k) - gradients%work(k)))
     end do
     call scene%rows%raise(extremes)
     decided = extremes(1) <= decisive*extremes(2)

@@ -4,13 +4,19 @@
 !> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero. With other rigid
 !> modes the resultants are kept, and the gaps become a rigid motion, which displacements then include.
 module fuge_projected_gradients
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, evaluate_iterate, find_least_magnitude, &
-    find_penetration, is_accurate, iterate_pass, project_residual, remove_rigid_part
+  use fuge_conjugate_gradients, only: conjugate_gradients
+  use fuge_contact_displacement, only: compute_displacement
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_segments, only: add_scaled_over, center_over, dot_and_sum_over, dot_over, max_abs_over
+  use fuge_contact_segments, only: add_scaled_over, center_over, contact_segments, dot_and_sum_over, dot_over, &
+    max_abs_over
+  use fuge_contact_set, only: contact_set
   use fuge_contact_step, only: step_over
+  use fuge_iterate_evaluation, only: evaluate_iterate, find_penetration, project_residual, remove_rigid_part
+  use fuge_iterate_pass, only: iterate_pass
   use fuge_kinds, only: dp
+  use fuge_least_magnitude, only: find_least_magnitude
   use fuge_null_direction, only: find_softness, largest_energy, leave_null_direction, stores_no_energy
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
@@ -43,7 +49,7 @@ contains
   !> motion is prescribed.
   !>
   !> `iterate` in: forces, displacements and contact set; out: new forces and displacements (the latter by recurrence).
-  !> Ends when the residual norm is at most `tolerance` times the least magnitude (then iterate%converged);
+  !> Ends when the residual norm is at most `tolerance` times the least magnitude (then iterate%gradients%converged);
   !> unless `to_tolerance`, already when the residual is small enough to tell which points are
   !> in tension and which penetrate; or when only rounding is left, or at the limit of
   !> iterations. Errors: those of the operator, FUGE_ERR_NOT_DEFINITE, FUGE_ERR_MEMORY.
@@ -59,61 +65,63 @@ contains
     integer :: iteration, limit
     logical :: preconditioned
 
-    iterate%converged = .false.
-    call iterate%lanczos%restart()
-    iterate%unbounded = .false.
-    if (allocated(iterate%start)) iterate%start = iterate%force
-    preconditioned = operator%has_preconditioner()
-    call evaluate_iterate(operator, scene, iterate, info)
-    if (info%failed()) return
-    limit = min(ITERATIONS_PER_POINT*min(iterate%segments%points, MAX_ITERATIONS) + EXTRA_ITERATIONS, MAX_ITERATIONS)
-    call clear_direction(iterate)
-    previous = 1.0_dp
-    do iteration = 0, limit
-      iterate%converged = is_accurate(iterate, tolerance)
-      if (.not. iterate%converged .and. measured_again(scene, iteration, limit)) then
-        ! The forces at the start may have been others, even none.
-        call find_least_magnitude(operator, scene, iterate, info)
-        if (info%failed()) return
-        iterate%converged = is_accurate(iterate, tolerance)
-      end if
-      if (iterate%converged .or. iteration == limit) return
-      if (iteration > 0 .and. .not. to_tolerance) then
-        if (iterate%residual_norm <= DECISIVE*iterate%penetration) return
-      end if
-      call precondition_residual(operator, scene, preconditioner, iterate, energy, info)
+    associate (segments => iterate%segments, gradients => iterate%gradients, lengths => iterate%lengths)
+      gradients%converged = .false.
+      call gradients%lanczos%restart()
+      gradients%unbounded = .false.
+      if (allocated(gradients%start)) gradients%start = iterate%force
+      preconditioned = operator%has_preconditioner()
+      call evaluate_iterate(operator, scene, iterate, info)
       if (info%failed()) return
-      if (iteration == 0 .or. is_accurate(iterate, NEARLY*tolerance)) then
-        iterate%amplification = max_abs_over(iterate%segments, iterate%work)/iterate%residual_norm
-      end if
-      if (iteration > 0 .and. preconditioned .and. .not. to_tolerance) then
-        if (tension_is_decided(scene, iterate, DECISIVE)) return
-      end if
-      if (.not. energy > 0.0_dp) then
-        call check_preconditioner_energy(iterate, energy, info)
-        return
-      end if
-      call add_scaled_over(iterate%segments, energy/previous, iterate%work, iterate%direction)
-      call advance_along_direction(operator, scene, tolerance, energy, iterate, step_length, info)
-      if (.not. step_length > 0.0_dp) return
-      call iterate%lanczos%add(step_length, energy/previous)
-      previous = energy
-      if (.not. (to_tolerance .or. preconditioned)) then
-        ! Without a preconditioner the last step stands for the error of the forces.
-        if (step_length*max_abs_over(iterate%segments, iterate%direction) &
-            <= DECISIVE*greatest_tension(scene, iterate)) return
-      end if
-    end do
+      limit = min(ITERATIONS_PER_POINT*min(segments%points, MAX_ITERATIONS) + EXTRA_ITERATIONS, MAX_ITERATIONS)
+      call clear_direction(gradients)
+      previous = 1.0_dp
+      do iteration = 0, limit
+        gradients%converged = lengths%is_accurate(tolerance)
+        if (.not. gradients%converged .and. measured_again(scene, iteration, limit)) then
+          ! The forces at the start may have been others, even none.
+          call find_least_magnitude(operator, scene, iterate, info)
+          if (info%failed()) return
+          gradients%converged = lengths%is_accurate(tolerance)
+        end if
+        if (gradients%converged .or. iteration == limit) return
+        if (iteration > 0 .and. .not. to_tolerance) then
+          if (lengths%residual_norm <= DECISIVE*lengths%penetration) return
+        end if
+        call precondition_residual(operator, scene, preconditioner, iterate%contact_set, gradients, energy, info)
+        if (info%failed()) return
+        if (iteration == 0 .or. lengths%is_accurate(NEARLY*tolerance)) then
+          gradients%amplification = max_abs_over(segments, gradients%work)/lengths%residual_norm
+        end if
+        if (iteration > 0 .and. preconditioned .and. .not. to_tolerance) then
+          if (tension_is_decided(scene, iterate%contact_set, gradients, DECISIVE)) return
+        end if
+        if (.not. energy > 0.0_dp) then
+          call check_preconditioner_energy(segments, gradients, energy, info)
+          return
+        end if
+        call add_scaled_over(segments, energy/previous, gradients%work, gradients%direction)
+        call advance_along_direction(operator, scene, tolerance, energy, iterate, step_length, info)
+        if (.not. step_length > 0.0_dp) return
+        call gradients%lanczos%add(step_length, energy/previous)
+        previous = energy
+        if (.not. (to_tolerance .or. preconditioned)) then
+          ! Without a preconditioner the last step stands for the error of the forces.
+          if (step_length*max_abs_over(segments, gradients%direction) &
+              <= DECISIVE*greatest_tension(scene, iterate%contact_set)) return
+        end if
+      end do
+    end associate
   end subroutine run_projected_gradients
 
   !> No search direction at any point.
-  subroutine clear_direction(iterate)
-    type(contact_iterate), intent(inout), target :: iterate
+  subroutine clear_direction(gradients)
+    type(conjugate_gradients), intent(inout), target :: gradients
     type(iterate_pass) :: pass
     real(dp) :: none(0)
 
-    pass%iterate => iterate
-    call pass%go(clear_in_chunk, 0, none)
+    pass%gradients => gradients
+    call pass%go(clear_in_chunk, size(gradients%direction), 0, none)
   end subroutine clear_direction
 
   subroutine clear_in_chunk(pass, k, first, last, found)
@@ -122,7 +130,7 @@ contains
     real(dp), intent(inout) :: found(:)
 
     if (k < 1) found = 0.0_dp
-    pass%iterate%direction(first:last) = 0.0_dp
+    pass%gradients%direction(first:last) = 0.0_dp
   end subroutine clear_in_chunk
 
   !> Is the length that residuals are compared with to be measured anew before this iteration? At the end, and seldom
@@ -137,21 +145,22 @@ contains
                                                                        .and. iand(iteration, iteration - 1) == 0)
   end function measured_again
 
-  !> The preconditioned residual, iterate%work, projected to forces without resultants, and its `energy`. Errors: those
-  !> of the preconditioner.
-  subroutine precondition_residual(operator, scene, preconditioner, iterate, energy, info)
+  !> The preconditioned residual, gradients%work, projected to forces without resultants, and its `energy`. Errors:
+  !> those of the preconditioner.
+  subroutine precondition_residual(operator, scene, preconditioner, set, gradients, energy, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
     type(contact_preconditioner), intent(inout) :: preconditioner
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_set), intent(in) :: set
+    type(conjugate_gradients), intent(inout) :: gradients
     real(dp), intent(out) :: energy
     type(fuge_info), intent(inout) :: info
 
     if (allocated(scene%modes)) then
-      call preconditioner%apply_with_modes(operator, iterate%segments, iterate%projection, iterate%residual, &
-                                           iterate%work, energy, info)
+      call preconditioner%apply_with_modes(operator, set%segments, set%projection, gradients%residual, gradients%work, &
+                                           energy, info)
     else
-      call preconditioner%apply(operator, iterate%segments, .not. scene%prescribed, iterate%residual, iterate%work, &
+      call preconditioner%apply(operator, set%segments, .not. scene%prescribed, gradients%residual, gradients%work, &
                                 energy, info)
     end if
   end subroutine precondition_residual
@@ -173,39 +182,48 @@ contains
     logical :: none, suspect
 
     step_length = 0.0_dp
-    call compute_displacement(operator, scene%counts_datum(), iterate%direction, iterate%work, info)
-    if (info%failed()) return
-    if (scene%prescribed) call find_softness(operator, scene, iterate, info)
-    if (allocated(scene%modes) .and. .not. info%failed()) call remove_rigid_motion(iterate, rigid_motion)
-    call dot_and_sum_over(iterate%segments, iterate%direction, iterate%work, curvature, total)
-    ! Under a load alone, forces do not grow on the way to a direction without energy.
-    suspect = iterate%lanczos%is_suspect(curvature/energy)
-    if (suspect .and. .not. scene%prescribed) call find_softness(operator, scene, iterate, info)
-    if (info%failed()) return
-    none = scene%prescribed .or. suspect
-    if (none) none = stores_no_energy(iterate, curvature)
-    if (none) then
-      call leave_null_direction(scene, tolerance, energy, iterate)
-    else if (curvature > 0.0_dp) then
-      step_length = energy/curvature
-      if (scene%prescribed) total = 0.0_dp
-      call take_step(scene, step_length, total/real(iterate%segments%points, dp), iterate)
-      if (allocated(scene%modes)) iterate%rigid_motion = iterate%rigid_motion - step_length*rigid_motion
-    else
-      call check_curvature(operator, scene, iterate, info)
-    end if
+    associate (segments => iterate%segments, gradients => iterate%gradients)
+      call compute_displacement(operator, scene%counts_datum(), gradients%direction, gradients%work, info)
+      if (info%failed()) return
+      if (scene%prescribed) call find_softness(operator, scene, segments, iterate%force, iterate%displacement, &
+                                               gradients, info)
+      if (allocated(scene%modes) .and. .not. info%failed()) then
+        call remove_rigid_motion(scene, iterate%contact_set, gradients%work, rigid_motion)
+      end if
+      call dot_and_sum_over(segments, gradients%direction, gradients%work, curvature, total)
+      ! Under a load alone, forces do not grow on the way to a direction without energy.
+      suspect = gradients%lanczos%is_suspect(curvature/energy)
+      if (suspect .and. .not. scene%prescribed) then
+        call find_softness(operator, scene, segments, iterate%force, iterate%displacement, gradients, info)
+      end if
+      if (info%failed()) return
+      none = scene%prescribed .or. suspect
+      if (none) none = stores_no_energy(segments, gradients, curvature)
+      if (none) then
+        call leave_null_direction(scene, tolerance, energy, iterate%lengths, iterate%contact_set, gradients)
+      else if (curvature > 0.0_dp) then
+        step_length = energy/curvature
+        if (scene%prescribed) total = 0.0_dp
+        call take_step(scene, step_length, total/real(segments%points, dp), iterate)
+        if (allocated(scene%modes)) iterate%rigid_motion = iterate%rigid_motion - step_length*rigid_motion
+      else
+        call check_curvature(operator, scene, iterate, info)
+      end if
+    end associate
   end subroutine advance_along_direction
 
-  !> Subtract from the displacements iterate%work, at all points, the `rigid_motion` (m) nearest to them on the set.
-  subroutine remove_rigid_motion(iterate, rigid_motion)
-    type(contact_iterate), intent(inout) :: iterate
+  !> Subtract from the displacements `work` (n), at all points, the `rigid_motion` (m) nearest to them on the set.
+  subroutine remove_rigid_motion(scene, set, work, rigid_motion)
+    type(contact_scene), intent(in) :: scene
+    type(contact_set), intent(in) :: set
+    real(dp), intent(inout), contiguous :: work(:)
     real(dp), allocatable, intent(out) :: rigid_motion(:)
     real(dp), allocatable :: factors(:)
 
-    allocate (factors(size(iterate%rigid_motion)), rigid_motion(size(iterate%rigid_motion)))
-    call iterate%projection%components(iterate%segments, iterate%work, factors)
-    call iterate%projection%subtract(factors, iterate%work)
-    rigid_motion = iterate%projection%motion(factors)
+    allocate (factors(size(scene%load)), rigid_motion(size(scene%load)))
+    call set%projection%components(set%segments, work, factors)
+    call set%projection%subtract(factors, work)
+    rigid_motion = set%projection%motion(factors)
   end subroutine remove_rigid_motion
 
   !> Subtract `step_length` times the search direction from the forces, and update what follows from them. `mean` is
@@ -219,31 +237,33 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     real(dp) :: rest, total
 
-    iterate%motion = iterate%motion - step_length*mean
-    call step_over(iterate%segments, step_length, step_length*mean, scene%gap, iterate%motion, iterate%direction, &
-                   iterate%work, iterate%force, iterate%displacement, iterate%residual, total, iterate%residual_norm, &
-                   iterate%penetration)
-    if (allocated(scene%play)) iterate%penetration = find_penetration(scene, iterate)
-    if (allocated(scene%modes)) then
-      iterate%unprojected = max(iterate%unprojected, iterate%residual_norm)
-      if (iterate%residual_norm < SMALL*iterate%unprojected) call project_residual(scene, iterate)
-    end if
-    if (scene%prescribed) return
-    ! A mean left by rounding would grow, and without a preconditioner change the sum of the forces.
-    rest = total/real(iterate%segments%points, dp)
-    call center_over(iterate%segments, rest, iterate%residual, iterate%residual_norm)
-    iterate%motion = iterate%motion + rest
+    associate (segments => iterate%segments, gradients => iterate%gradients, lengths => iterate%lengths)
+      iterate%motion = iterate%motion - step_length*mean
+      call step_over(segments, step_length, step_length*mean, scene%gap, iterate%motion, gradients%direction, &
+                     gradients%work, iterate%force, iterate%displacement, gradients%residual, total, &
+                     lengths%residual_norm, lengths%penetration)
+      if (allocated(scene%play)) lengths%penetration = find_penetration(scene, iterate)
+      if (allocated(scene%modes)) then
+        gradients%unprojected = max(gradients%unprojected, lengths%residual_norm)
+        if (lengths%residual_norm < SMALL*gradients%unprojected) call project_residual(scene, iterate)
+      end if
+      if (scene%prescribed) return
+      ! A mean left by rounding would grow, and without a preconditioner change the sum of the forces.
+      rest = total/real(segments%points, dp)
+      call center_over(segments, rest, gradients%residual, lengths%residual_norm)
+      iterate%motion = iterate%motion + rest
+    end associate
   end subroutine take_step
 
   !> The preconditioned residual has no positive energy: either the residual is nothing but
   !> rounding, or the preconditioner is not positive definite (FUGE_ERR_NOT_DEFINITE).
-  subroutine check_preconditioner_energy(iterate, energy, info)
-    type(contact_iterate), intent(in) :: iterate
+  subroutine check_preconditioner_energy(segments, gradients, energy, info)
+    type(contact_segments), intent(in) :: segments
+    type(conjugate_gradients), intent(in) :: gradients
     real(dp), intent(in) :: energy
     type(fuge_info), intent(inout) :: info
 
-    if (energy >= -ROUNDING*max_abs_over(iterate%segments, iterate%residual) &
-        *max_abs_over(iterate%segments, iterate%work)) return
+    if (energy >= -ROUNDING*max_abs_over(segments, gradients%residual)*max_abs_over(segments, gradients%work)) return
     call report(info, FUGE_ERR_NOT_DEFINITE, &
                 'preconditioner '//text(info%preconditionings)//': lengths with the negative energy ' &
                 //text(energy)//': the preconditioner of the operator is not positive definite')
@@ -261,14 +281,17 @@ contains
     type(fuge_info), intent(inout) :: info
     real(dp) :: curvature
 
-    call remove_rigid_part(scene, iterate%projection, iterate%segments, iterate%direction)
-    call compute_displacement(operator, scene%counts_datum(), iterate%direction, iterate%work, info)
-    if (.not. info%failed()) call find_softness(operator, scene, iterate, info)
-    if (info%failed()) return
-    curvature = dot_over(iterate%segments, iterate%direction, iterate%work)
-    if (curvature >= -ROUNDING*largest_energy(iterate)) return
-    call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces on the contact store the ' &
-                //'negative energy '//text(0.5_dp*curvature)//': the operator is not positive definite')
+    associate (gradients => iterate%gradients)
+      call remove_rigid_part(scene, iterate%contact_set, gradients%direction)
+      call compute_displacement(operator, scene%counts_datum(), gradients%direction, gradients%work, info)
+      if (.not. info%failed()) call find_softness(operator, scene, iterate%segments, iterate%force, &
+                                                  iterate%displacement, gradients, info)
+      if (info%failed()) return
+      curvature = dot_over(iterate%segments, gradients%direction, gradients%work)
+      if (curvature >= -ROUNDING*largest_energy(iterate%segments, gradients)) return
+      call report(info, FUGE_ERR_NOT_DEFINITE, 'product '//text(info%products)//': forces on the contact store the ' &
+                  //'negative energy '//text(0.5_dp*curvature)//': the operator is not positive definite')
+    end associate
   end subroutine check_curvature
 
 end module fuge_projected_gradients

@@ -3,7 +3,8 @@
 !> Conjugate gradients cannot see the difference of two such forces, because no residual has a component along it. But
 !> the two points have equal displacements under any forces, so that one product with random ones shows them.
 module fuge_repeated_points
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, deformed_gap
+  use fuge_contact_displacement, only: compute_displacement
+  use fuge_contact_iterate, only: contact_iterate, deformed_gap
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp

@@ -1,11 +1,13 @@
 !> Derivatives of a solution by products: conjugate gradients on its contact set.
 module fuge_set_derivative
   use fuge_canonical_problem, only: canonical_problem
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, evaluate_iterate, is_accurate, start_iterate
+  use fuge_contact_displacement, only: compute_displacement
+  use fuge_contact_iterate, only: contact_iterate, start_iterate
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: max_abs_over
   use fuge_contact_states, only: is_at_stop
+  use fuge_iterate_evaluation, only: evaluate_iterate
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator
@@ -112,10 +114,10 @@ contains
       call correct_forces(operator, scene, iterate, info)
       if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
       if (info%failed()) return
-      if (is_accurate(iterate, tolerance)) return
+      if (iterate%lengths%is_accurate(tolerance)) return
       ! Rounding is left: as exact as the products are.
-      if (.not. iterate%residual_norm < 0.5_dp*previous) exit
-      previous = iterate%residual_norm
+      if (.not. iterate%lengths%residual_norm < 0.5_dp*previous) exit
+      previous = iterate%lengths%residual_norm
       call preconditioner%set(operator, iterate%contact, .false., maxval(abs(iterate%displacement)), info)
       if (allocated(scene%modes) .and. .not. info%failed()) then
         call preconditioner%set_modes(operator, iterate%projection, iterate%segments, iterate%contact, info)
@@ -125,10 +127,10 @@ contains
       if (info%failed()) return
     end do
     ! Displacements that cancel the changes of the gaps have no smaller rounding than these.
-    largest = max(iterate%least_magnitude, max_abs_over(iterate%segments, scene%gap))
-    if (iterate%residual_norm > sqrt(tolerance)*largest) then
+    largest = max(iterate%lengths%least_magnitude, max_abs_over(iterate%segments, scene%gap))
+    if (iterate%lengths%residual_norm > sqrt(tolerance)*largest) then
       call report(info, FUGE_ERR_ITERATION_LIMIT, 'derivatives: conjugate gradients leave ' &
-                  //text(iterate%residual_norm/largest)//' of the gaps open; the operator may be too badly ' &
+                  //text(iterate%lengths%residual_norm/largest)//' of the gaps open; the operator may be too badly ' &
                   //'conditioned on the contact')
     end if
   end subroutine solve_on_set

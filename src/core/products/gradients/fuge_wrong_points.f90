@@ -1,8 +1,11 @@
 !> Points in the wrong state: in contact although their force pulls away from the stop, or open although they penetrate
 !> a stop. How many there are, which are worst, and their exchange.
 module fuge_wrong_points
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap, iterate_pass
+  use fuge_conjugate_gradients, only: conjugate_gradients
+  use fuge_contact_iterate, only: contact_iterate, deformed_gap
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_set, only: contact_set
+  use fuge_iterate_pass, only: iterate_pass
   use fuge_kinds, only: dp
   use fuge_limited_points, only: choose_limited_contact, count_wrong_limited, excess_is_decided, greatest_excess
   use fuge_point_chunks, only: chunked_pass
@@ -33,23 +36,23 @@ contains
   !> The contact set that the forces to start from suggest; tied points always belong to it. Where a load must be
   !> carried and there are no such forces, as when the contact of the last solve is excluded now, it is every point that
   !> takes part.
-  subroutine choose_contact(scene, iterate)
+  subroutine choose_contact(scene, set)
     type(contact_scene), intent(in), target :: scene
-    type(contact_iterate), intent(inout), target :: iterate
+    type(contact_set), intent(inout), target :: set
     type(iterate_pass) :: pass
     real(dp) :: points(1)
 
     if (scene%has_limits()) then
-      call choose_limited_contact(scene, iterate)
+      call choose_limited_contact(scene, set)
       return
     end if
     pass%scene => scene
-    pass%iterate => iterate
-    call pass%go(choose_points, 1, points)
+    pass%set => set
+    call pass%go(choose_points, size(scene%gap), 1, points)
     if (scene%prescribed) return
     if (scene%rows%anywhere(points(1) > 0.0_dp)) return
-    iterate%contact = .true.
-    if (allocated(scene%excluded)) iterate%contact = .not. scene%excluded
+    set%contact = .true.
+    if (allocated(scene%excluded)) set%contact = .not. scene%excluded
   end subroutine choose_contact
 
   !> Contact where forces suggest it. Found: the number of these points.
@@ -60,11 +63,11 @@ contains
     integer :: i
 
     if (k < 1) return
-    associate (scene => pass%scene, contact => pass%iterate%contact, force => pass%iterate%force)
+    associate (scene => pass%scene, contact => pass%set%contact, force => pass%set%force)
       contact(first:last) = force(first:last) > 0.0_dp
       if (allocated(scene%play)) then
         do i = first, last
-          associate (at_upper => pass%iterate%at_upper(i))
+          associate (at_upper => pass%set%at_upper(i))
             at_upper = force(i) < 0.0_dp .and. scene%play(i) < huge(1.0_dp) .and. .not. scene%is_tied(i)
             contact(i) = contact(i) .or. at_upper .or. scene%is_tied(i)
           end associate
@@ -92,7 +95,7 @@ contains
     pass%scene => scene
     pass%iterate => iterate
     pass%value = noise
-    call pass%go(count_in_chunk, 1, found)
+    call pass%go(count_in_chunk, size(scene%gap), 1, found)
     wrong = scene%rows%total_count(nint(found(1)))
   end function count_wrong_points
 
@@ -114,7 +117,7 @@ contains
       else
         do i = first, last
           if (iterate%contact(i)) then
-            if (pulls_away(scene, iterate, i)) wrong = wrong + 1
+            if (pulls_away(scene, iterate%contact_set, i)) wrong = wrong + 1
           else if (penetrated_stop(scene, pass%value, iterate, i) /= 0) then
             wrong = wrong + 1
           end if
@@ -134,26 +137,26 @@ contains
   end function pulls_or_penetrates
 
   !> Does the force of point `k`, in contact, pull away from its stop?
-  pure function pulls_away(scene, iterate, k)
+  pure function pulls_away(scene, set, k)
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_set), intent(in) :: set
     integer, intent(in) :: k
     logical :: pulls_away
 
     pulls_away = .false.
-    if (.not. scene%is_tied(k)) pulls_away = tension_of(iterate, k, iterate%force(k)) > iterate%tension_noise
+    if (.not. scene%is_tied(k)) pulls_away = tension_of(set, k, set%force(k)) > set%tension_noise
   end function pulls_away
 
   !> How much `force` at point `k` pulls away from its stop.
-  pure function tension_of(iterate, k, force) result(tension)
-    type(contact_iterate), intent(in) :: iterate
+  pure function tension_of(set, k, force) result(tension)
+    type(contact_set), intent(in) :: set
     integer, intent(in) :: k
     real(dp), intent(in) :: force
     real(dp) :: tension
 
     tension = -force
-    if (allocated(iterate%at_upper)) then
-      if (iterate%at_upper(k)) tension = force
+    if (allocated(set%at_upper)) then
+      if (set%at_upper(k)) tension = force
     end if
   end function tension_of
 
@@ -225,7 +228,7 @@ contains
           wrong = pulls_or_penetrates(iterate%contact(i), iterate%force(i), iterate%tension_noise, scene%gap(i), &
                                       iterate%displacement(i), iterate%motion, self%noise)
         else if (iterate%contact(i)) then
-          wrong = pulls_away(scene, iterate, i)
+          wrong = pulls_away(scene, iterate%contact_set, i)
         else
           call join(scene, self%noise, iterate, i, wrong)
         end if
@@ -249,7 +252,7 @@ contains
     real(dp) :: measure
 
     if (iterate%contact(k)) then
-      measure = -tension_of(iterate, k, iterate%force(k))
+      measure = -tension_of(iterate%contact_set, k, iterate%force(k))
       return
     end if
     measure = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
@@ -315,20 +318,20 @@ contains
   end function deepest_open_point
 
   !> The greatest tension in the contact set, of points that are not tied; 0 if there is none.
-  function greatest_tension(scene, iterate) result(tension)
+  function greatest_tension(scene, set) result(tension)
     type(contact_scene), intent(in), target :: scene
-    type(contact_iterate), intent(in), target :: iterate
+    type(contact_set), intent(in), target :: set
     real(dp) :: tension
     type(iterate_pass) :: pass
     real(dp) :: greatest(1)
 
     if (scene%has_limits()) then
-      tension = greatest_excess(scene, iterate)
+      tension = greatest_excess(scene, set)
       return
     end if
     pass%scene => scene
-    pass%iterate => iterate
-    call pass%go(find_tension, 0, greatest)
+    pass%set => set
+    call pass%go(find_tension, size(scene%gap), 0, greatest)
     tension = scene%rows%largest(greatest(1))
   end function greatest_tension
 
@@ -340,38 +343,40 @@ contains
     integer :: i
 
     if (k < 1) return
-    associate (scene => pass%scene, iterate => pass%iterate)
+    associate (scene => pass%scene, set => pass%set)
       if (.not. allocated(scene%play)) then
-        found(1) = max(0.0_dp, -minval(iterate%force(first:last)))
+        found(1) = max(0.0_dp, -minval(set%force(first:last)))
         return
       end if
       do i = first, last
-        if (.not. iterate%contact(i)) cycle
-        if (pulls_away(scene, iterate, i)) found(1) = max(found(1), abs(iterate%force(i)))
+        if (.not. set%contact(i)) cycle
+        if (pulls_away(scene, set, i)) found(1) = max(found(1), abs(set%force(i)))
       end do
     end associate
   end subroutine find_tension
 
   !> Are the forces accurate enough to tell which of them will be tensile: is their error below the fraction `decisive`
-  !> of the greatest tension? The preconditioned residual, iterate%work, estimates their error.
-  function tension_is_decided(scene, iterate, decisive) result(decided)
+  !> of the greatest tension? The preconditioned residual, gradients%work, estimates their error.
+  function tension_is_decided(scene, set, gradients, decisive) result(decided)
     type(contact_scene), intent(in), target :: scene
-    type(contact_iterate), intent(in), target :: iterate
+    type(contact_set), intent(in), target :: set
+    type(conjugate_gradients), intent(in), target :: gradients
     real(dp), intent(in) :: decisive
     logical :: decided
     type(iterate_pass) :: pass
     real(dp) :: extremes(2)
 
     if (scene%has_limits()) then
-      decided = excess_is_decided(scene, iterate, decisive)
+      decided = excess_is_decided(scene, set, gradients, decisive)
       return
     end if
     pass%scene => scene
-    pass%iterate => iterate
+    pass%set => set
+    pass%gradients => gradients
     if (allocated(scene%play)) then
-      call pass%go(find_errors_between_stops, 0, extremes)
+      call pass%go(find_errors_between_stops, size(scene%gap), 0, extremes)
     else
-      call pass%go(find_errors, 0, extremes)
+      call pass%go(find_errors, size(scene%gap), 0, extremes)
     end if
     call scene%rows%raise(extremes)
     decided = extremes(1) <= decisive*extremes(2)
@@ -385,11 +390,11 @@ contains
     integer :: i
 
     if (k < 1) return
-    associate (scene => pass%scene, iterate => pass%iterate)
+    associate (scene => pass%scene, set => pass%set, work => pass%gradients%work)
       do i = first, last
-        if (.not. iterate%contact(i)) cycle
-        found(1) = max(found(1), abs(iterate%work(i)))
-        if (.not. scene%is_tied(i)) found(2) = max(found(2), tension_of(iterate, i, iterate%force(i) - iterate%work(i)))
+        if (.not. set%contact(i)) cycle
+        found(1) = max(found(1), abs(work(i)))
+        if (.not. scene%is_tied(i)) found(2) = max(found(2), tension_of(set, i, set%force(i) - work(i)))
       end do
     end associate
   end subroutine find_errors_between_stops
@@ -405,7 +410,7 @@ contains
     if (last < first) return
     force_error = 0.0_dp
     tension = 0.0_dp
-    associate (segments => pass%iterate%segments, work => pass%iterate%work, force => pass%iterate%force)
+    associate (segments => pass%set%segments, work => pass%gradients%work, force => pass%set%force)
       do i = segments%before(k) + 1, segments%before(k + 1)
         associate (a => segments%first(i), b => segments%last(i))
           do j = a, b - LANES + 1, LANES

@@ -45,10 +45,13 @@ module fuge_contact_scene
     procedure :: limited_force
     procedure :: tied_points
     procedure :: counts_datum
+    procedure :: rounding_force
   end type contact_scene
 
   !> The gap of excluded points: no displacement closes it.
   real(dp), parameter, public :: OUT_OF_REACH = 0.01_dp*huge(1.0_dp)
+  !> Displacements below this fraction of the gaps are rounding.
+  real(dp), parameter :: NO_LENGTH = 1.0e-14_dp
   !> A mode whose means over the cells are below this fraction of it varies within cells only: what is left of it may be
   !> rounding, which would count as a mode like any other.
   real(dp), parameter :: LEFT_OF_MODE = 0.1_dp
@@ -155,6 +158,29 @@ contains
 
     counts_datum = self%prescribed .and. .not. self%absorbs_datum
   end function counts_datum
+
+  !> Forces up to this one are rounding: 0 if there is a load to compare them with; without one, the largest force that
+  !> displaces nothing beside the gaps, where forces of size 1 displace by `softness`.
+  function rounding_force(self, softness) result(rounding)
+    class(contact_scene), intent(in) :: self
+    real(dp), intent(in) :: softness
+    real(dp) :: rounding
+    real(dp) :: length
+
+    rounding = 0.0_dp
+    if (.not. self%is_unloaded()) return
+    rounding = tiny(rounding)
+    length = maxval(abs(self%gap), mask=self%gap < OUT_OF_REACH)
+    if (allocated(self%play)) length = max(length, maxval(self%play, mask=self%play < huge(length) &
+                                                          .and. self%gap < OUT_OF_REACH))
+    length = self%rows%largest(length)
+    if (.not. length > 0.0_dp) then
+      ! Without lengths there are no forces.
+      rounding = huge(rounding)
+    else if (softness > 0.0_dp) then
+      rounding = max(rounding, NO_LENGTH*(length/softness))
+    end if
+  end function rounding_force
 
   !> The scene on the grid whose cells are 2**level times as wide as those of `finest`, with means over the points of
   !> a cell that take part. `possible` is false if no forces there carry the resultants. `rows`: those of the coarse

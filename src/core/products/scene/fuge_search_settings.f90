@@ -1,14 +1,11 @@
 !> What the search for the contact set of one grid has to reach, and what it may spend.
 module fuge_search_settings
-  use fuge_contact_iterate, only: contact_iterate
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_options_type, only: ITERATIONS_PER_ROW
   use fuge_status, only: fuge_info, report, FUGE_ERR_ITERATION_LIMIT
   implicit none
   private
-
-  public :: note_least_compliance
 
   !> Relative residual required on a coarser grid, which only provides a starting point.
   real(dp), parameter :: COARSE_TOLERANCE = 1.0e-4_dp
@@ -47,17 +44,5 @@ contains
     call report(info, FUGE_ERR_ITERATION_LIMIT, text(self%limit)//' contact sets were not enough: raise ' &
                 //'max_iterations (0 allows '//text(ITERATIONS_PER_ROW)//' for each point)')
   end subroutine check_limit
-
-  !> Keep the least compliance that conjugate gradients have found on this set.
-  subroutine note_least_compliance(iterate)
-    type(contact_iterate), intent(inout) :: iterate
-    real(dp) :: value
-
-    value = iterate%lanczos%smallest()
-    if (.not. (value > 0.0_dp .and. iterate%amplification > 0.0_dp)) return
-    value = value/iterate%amplification
-    if (iterate%least_compliance > 0.0_dp) value = min(value, iterate%least_compliance)
-    iterate%least_compliance = value
-  end subroutine note_least_compliance
 
 end module fuge_search_settings

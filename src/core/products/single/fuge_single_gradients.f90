@@ -6,8 +6,9 @@
 !> Q. Ye, Residual replacement strategies for Krylov subspace iterative methods, SIAM Journal on Scientific Computing
 !> 22, 2000).
 module fuge_single_gradients
-  use fuge_contact_iterate, only: contact_iterate, is_accurate
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
+  use fuge_iterate_lengths, only: iterate_lengths
   use fuge_kinds, only: dp, sp
   use fuge_operator_products, only: multiply_single
   use fuge_operator_type, only: fuge_operator
@@ -65,21 +66,22 @@ contains
 
     lost = .false.
     goes_on = .false.
-    iterate%converged = .false.
-    call iterate%lanczos%restart()
+    iterate%gradients%converged = .false.
+    call iterate%gradients%lanczos%restart()
     previous = 1.0_dp
     steps = 0
     do iteration = 0, LIMIT
-      if (has_lost_digits(state, iterate, residual_needed(iterate, tolerance, to_tolerance))) then
+      if (has_lost_digits(state%drift, iterate%lengths, residual_needed(iterate%lengths, tolerance, to_tolerance))) then
         ! Residuals of the size of their errors were others than those that replace them.
-        goes_on = goes_on .and. iterate%residual_norm > RELATED*state%drift
+        goes_on = goes_on .and. iterate%lengths%residual_norm > RELATED*state%drift
         call replace_residuals(operator, scene, replacements, state, iterate, lost, info)
         if (lost .or. info%failed()) return
         cycle
       end if
-      iterate%converged = is_accurate(iterate, tolerance)
+      iterate%gradients%converged = iterate%lengths%is_accurate(tolerance)
       judges = steps > 0 .and. .not. to_tolerance
-      if (iterate%converged .or. (judges .and. iterate%residual_norm <= DECISIVE*iterate%penetration)) return
+      if (iterate%gradients%converged) return
+      if (judges .and. iterate%lengths%residual_norm <= DECISIVE*iterate%lengths%penetration) return
       call preconditioner%apply(operator, scene, state, iterate, factors, energy, info)
       lost = .not. energy > 0.0_dp
       if (lost .or. info%failed()) return
@@ -90,8 +92,8 @@ contains
       pass%ratio = ratio
       call pass%go(turn_direction, 1, 0)
       largest = pass%largest(1)
-      if (steps == 0 .or. is_accurate(iterate, NEARLY*tolerance)) then
-        iterate%amplification = largest/iterate%residual_norm
+      if (steps == 0 .or. iterate%lengths%is_accurate(NEARLY*tolerance)) then
+        iterate%gradients%amplification = largest/iterate%lengths%residual_norm
       end if
       if (judges .and. largest <= DECISIVE*state%tension) return
       call multiply_single(operator, state%direction, state%work, info)
@@ -99,7 +101,7 @@ contains
       call step(scene, energy, state, iterate, step_length)
       lost = .not. step_length > 0.0_dp
       if (lost) return
-      call iterate%lanczos%add(step_length, ratio)
+      call iterate%gradients%lanczos%add(step_length, ratio)
       previous = energy
       goes_on = .true.
       steps = steps + 1
@@ -108,13 +110,12 @@ contains
   end subroutine run_single_gradients
 
   !> Are residuals so small that the errors of the products count, and larger than what is `needed` allows?
-  elemental function has_lost_digits(state, iterate, needed) result(lost)
-    type(single_state), intent(in) :: state
-    type(contact_iterate), intent(in) :: iterate
-    real(dp), intent(in) :: needed
+  elemental function has_lost_digits(drift, lengths, needed) result(lost)
+    real(dp), intent(in) :: drift, needed
+    type(iterate_lengths), intent(in) :: lengths
     logical :: lost
 
-    lost = iterate%residual_norm < REPLACED*state%drift .and. state%drift > NEGLIGIBLE*needed
+    lost = lengths%residual_norm < REPLACED*drift .and. drift > NEGLIGIBLE*needed
   end function has_lost_digits
 
   !> Replace the residuals by those of a product in double precision. `lost`: they get no smaller, because they are
@@ -133,21 +134,21 @@ contains
     call refresh(operator, scene, .false., state, iterate, info)
     if (info%failed()) return
     replacements%in_vain = replacements%in_vain + 1
-    if (iterate%residual_norm < HALVED*replacements%least) replacements%in_vain = 0
+    if (iterate%lengths%residual_norm < HALVED*replacements%least) replacements%in_vain = 0
     lost = replacements%in_vain > MOST_ATTEMPTS
-    replacements%least = min(replacements%least, iterate%residual_norm)
+    replacements%least = min(replacements%least, iterate%lengths%residual_norm)
   end subroutine replace_residuals
 
   !> The residual at which the iteration stops, as far as its distances tell: that of the tolerance, or one that lets
   !> the set be judged.
-  elemental function residual_needed(iterate, tolerance, to_tolerance)
-    type(contact_iterate), intent(in) :: iterate
+  elemental function residual_needed(lengths, tolerance, to_tolerance)
+    type(iterate_lengths), intent(in) :: lengths
     real(dp), intent(in) :: tolerance
     logical, intent(in) :: to_tolerance
     real(dp) :: residual_needed
 
-    residual_needed = tolerance*iterate%least_magnitude
-    if (.not. to_tolerance) residual_needed = max(residual_needed, DECISIVE*iterate%penetration)
+    residual_needed = tolerance*lengths%least_magnitude
+    if (.not. to_tolerance) residual_needed = max(residual_needed, DECISIVE*lengths%penetration)
   end function residual_needed
 
   !> The least compliance where the forces to start from need no step: from the preconditioned residual, which stands
@@ -163,13 +164,14 @@ contains
     real(dp), allocatable :: factors(:)
     real(dp) :: energy
 
-    if (.not. iterate%residual_norm > 0.0_dp) return
+    if (.not. iterate%lengths%residual_norm > 0.0_dp) return
     call preconditioner%apply(operator, scene, state, iterate, factors, energy, info)
     if (info%failed()) return
     call state%point_to(scene, iterate, pass)
     pass%factors = factors
     call pass%go(turn_direction, 1, 0)
-    if (pass%largest(1) > 0.0_dp) iterate%least_compliance = TYPICAL_EIGENVALUE*iterate%residual_norm/pass%largest(1)
+    if (.not. pass%largest(1) > 0.0_dp) return
+    iterate%gradients%least_compliance = TYPICAL_EIGENVALUE*iterate%lengths%residual_norm/pass%largest(1)
   end subroutine estimate_compliance
 
   !> Go to the minimum of the energy along the search direction, whose displacements are state%work; `step_length` is 0
@@ -193,10 +195,10 @@ contains
     rise = given_way(scene, .false., state, iterate)
     if (state%flexibility > 0.0_dp) curvature = curvature + rise*(rise/state%flexibility)
     if (.not. (curvature > 0.0_dp .and. curvature <= huge(curvature))) return
-    if (iterate%lanczos%is_suspect(curvature/energy)) return
+    if (iterate%gradients%lanczos%is_suspect(curvature/energy)) return
     step_length = energy/curvature
     means = step_length*components(state, iterate, pass, 2)
-    state%drift = state%drift + SINGLE_ERROR*step_length*pass%largest(1) + epsilon(1.0_sp)*iterate%residual_norm
+    state%drift = state%drift + SINGLE_ERROR*step_length*pass%largest(1) + epsilon(1.0_sp)*iterate%lengths%residual_norm
     call move_by(scene, -means, iterate)
     pass%factor = step_length
     pass%factors(:m) = means - state%offset(:m)
@@ -206,8 +208,8 @@ contains
     ! A motion left by rounding would grow.
     state%offset(:m) = components(state, iterate, pass, 3)
     call move_by(scene, state%offset(:m), iterate)
-    iterate%residual_norm = pass%largest(1)
-    iterate%penetration = pass%largest(2)
+    iterate%lengths%residual_norm = pass%largest(1)
+    iterate%lengths%penetration = pass%largest(2)
     state%tension = pass%largest(3)
   end subroutine step
 

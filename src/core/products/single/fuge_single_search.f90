@@ -4,14 +4,15 @@
 !> As fuge_contact_set_search. The last forces, gaps and residuals are as exact as with double precision throughout,
 !> because the displacements are those of products in double precision, or differ from them by less than the tolerance.
 module fuge_single_search
-  use fuge_contact_iterate, only: contact_iterate, is_accurate
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_set, only: contact_set
   use fuge_feasible_forces, only: set_feasible_forces
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
   use fuge_monitor_type, only: fuge_monitor
   use fuge_operator_type, only: fuge_operator
-  use fuge_search_settings, only: note_least_compliance, search_settings, MAX_STALLS, SAFETY, WRONG_ON_COARSE
+  use fuge_search_settings, only: search_settings, MAX_STALLS, SAFETY, WRONG_ON_COARSE
   use fuge_single_gradients, only: estimate_compliance, run_single_gradients
   use fuge_single_law, only: exchange_states, set_ranges
   use fuge_single_passes, only: exchange_points, give_displacements, point_pass, set_forces, sum_forces, take_change
@@ -93,12 +94,12 @@ contains
       call solve_on_set(operator, settings, preconditioner, scene, to_tolerance, monitor, state, iterate, lost, info)
       if (lost .or. info%failed()) return
       call exchange(settings, scene, state, iterate, wrong, points, total)
-      found = wrong == 0 .and. iterate%converged
+      found = wrong == 0 .and. iterate%gradients%converged
       if (settings%coarse_grid) found = wrong <= WRONG_ON_COARSE*real(points, dp)
       if (found) call finish(settings, scene, state, iterate, found)
       if (found) return
       if (wrong == 0) then
-        if (to_tolerance .or. iterate%converged) then
+        if (to_tolerance .or. iterate%gradients%converged) then
           call confirm(operator, settings, scene, total, previous_residual, state, iterate, confirmed, info)
           if (info%failed()) return
           call preconditioner%note_changes(abs(iterate%segments%points - points))
@@ -114,7 +115,7 @@ contains
       call stalls%renew_if_fewer(wrong)
       if (stalls%has_stalled() .or. (points == 0 .and. .not. scene%prescribed)) return
       call preconditioner%note_changes(wrong)
-      iterate%least_compliance = 0.0_dp
+      iterate%gradients%least_compliance = 0.0_dp
       previous_residual = huge(previous_residual)
       call set_load(settings, scene, total, state, iterate, info)
       if (.not. info%failed()) call move_forces(operator, scene, state, iterate, info)
@@ -155,7 +156,7 @@ contains
     call pass%go(sum_forces, 1, 1)
     possible = are_in_range(scene, pass%largest(1))
     if (possible .and. is_general(scene)) then
-      call choose_contact(scene, iterate)
+      call choose_contact(scene, iterate%contact_set)
       if (allocated(scene%modes)) iterate%rigid_motion = 0.0_dp
       possible = scene%rows%anywhere(scene%prescribed .or. any(iterate%contact))
     else if (allocated(scene%excluded)) then
@@ -228,7 +229,8 @@ contains
     exact = state%is_exact
     ! The distances of points that take no part are not theirs.
     if (exact .or. allocated(scene%excluded)) return
-    exact = settings%tolerance >= LOOSE .and. state%drift <= NEGLIGIBLE*settings%tolerance*iterate%least_magnitude
+    exact = settings%tolerance >= LOOSE &
+            .and. state%drift <= NEGLIGIBLE*settings%tolerance*iterate%lengths%least_magnitude
     if (.not. exact) return
     call restore_sum(scene, state, iterate)
     call state%point_to(scene, iterate, pass)
@@ -252,12 +254,12 @@ contains
     integer :: states(2)
 
     if (is_general(scene)) then
-      iterate%direction = iterate%force
+      iterate%gradients%direction = iterate%force
       states = 0
-      if (allocated(scene%play)) states = counts_of_states(iterate)
+      if (allocated(scene%play)) states = counts_of_states(iterate%contact_set)
       call set_feasible_forces(scene, iterate, info)
       if (allocated(scene%play)) then
-        if (any(counts_of_states(iterate) /= states)) call set_ranges(scene, state, iterate)
+        if (any(counts_of_states(iterate%contact_set) /= states)) call set_ranges(scene, state, iterate)
       end if
       if (.not. info%failed()) call note_forces(settings, scene, .false., state, iterate)
       return
@@ -274,17 +276,17 @@ contains
   end subroutine set_load
 
   !> How many points are in contact, and at limits: where feasible forces need others, they add points to the contact.
-  pure function counts_of_states(iterate) result(counts)
-    type(contact_iterate), intent(in) :: iterate
+  pure function counts_of_states(set) result(counts)
+    type(contact_set), intent(in) :: set
     integer :: counts(2)
 
-    counts = [count(iterate%contact), 0]
-    if (allocated(iterate%limited)) counts(2) = count(iterate%limited /= 0)
+    counts = [count(set%contact), 0]
+    if (allocated(set%limited)) counts(2) = count(set%limited /= 0)
   end function counts_of_states
 
   !> What depends on feasible forces and on the contact of a general scene: its rigid motions, and with modes the
   !> tension that is rounding. The direction is the change of the forces, which were
-  !> iterate%direction before, unless they are those to `start` from.
+  !> iterate%gradients%direction before, unless they are those to `start` from.
   subroutine note_forces(settings, scene, start, state, iterate)
     type(search_settings), intent(in) :: settings
     type(contact_scene), intent(in), target :: scene
@@ -296,7 +298,7 @@ contains
     if (.not. is_general(scene)) return
     call state%take_basis(scene, iterate)
     call state%point_to(scene, iterate, pass)
-    pass%before => iterate%direction
+    pass%before => iterate%gradients%direction
     if (start) pass%before => iterate%force
     call pass%go(take_change, 1, 1)
     if (.not. allocated(scene%modes)) return
@@ -327,10 +329,11 @@ contains
                               iterate, lost, info)
     if (lost .or. info%failed()) return
     info%iterations = info%iterations + 1
-    if (.not. settings%coarse_grid) call note_least_compliance(iterate)
-    if (iterate%converged .and. .not. (settings%coarse_grid .or. settings%prepared)) then
-      if (.not. iterate%least_compliance > 0.0_dp) call estimate_compliance(operator, preconditioner, scene, state, &
-                                                                            iterate, info)
+    if (.not. settings%coarse_grid) call iterate%gradients%note_least_compliance()
+    if (iterate%gradients%converged .and. .not. (settings%coarse_grid .or. settings%prepared)) then
+      if (.not. iterate%gradients%least_compliance > 0.0_dp) then
+        call estimate_compliance(operator, preconditioner, scene, state, iterate, info)
+      end if
       if (info%failed()) return
     end if
     call tell_progress(scene, iterate, monitor, info)
@@ -348,7 +351,7 @@ contains
     type(point_pass) :: pass
     real(dp) :: found(3), noise
 
-    noise = SAFETY**2*settings%tolerance*iterate%least_magnitude + iterate%rounding
+    noise = iterate%lengths%allowed(SAFETY**2*settings%tolerance)
     if (allocated(scene%play)) then
       call exchange_states(scene, noise, state, iterate, found)
     else
@@ -382,9 +385,9 @@ contains
     call set_load(settings, scene, total, state, iterate, info)
     if (.not. info%failed()) call refresh(operator, scene, .false., state, iterate, info)
     if (info%failed()) return
-    confirmed = is_accurate(iterate, SAFETY*settings%tolerance) &
-                .or. .not. iterate%residual_norm < 0.5_dp*previous_residual
-    previous_residual = iterate%residual_norm
+    confirmed = iterate%lengths%is_accurate(SAFETY*settings%tolerance) &
+                .or. .not. iterate%lengths%residual_norm < 0.5_dp*previous_residual
+    previous_residual = iterate%lengths%residual_norm
   end subroutine confirm
 
 end module fuge_single_search

@@ -1,9 +1,10 @@
 !> The state of a search in single precision: what it needs besides forces and contact, and how exact that is.
 module fuge_single_state
-  use fuge_contact_iterate, only: contact_iterate, relative_error, RIGID_ROUNDINGS
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
   use fuge_feasible_forces, only: keep_resultants
   use fuge_kinds, only: dp, sp
+  use fuge_least_magnitude, only: RIGID_ROUNDINGS
   use fuge_operator_products, only: multiply, multiply_single
   use fuge_operator_type, only: fuge_operator
   use fuge_single_passes, only: add_moves, move_rigidly, note_basis, point_pass, scale_forces, settle_distances, &
@@ -284,7 +285,7 @@ contains
     real(dp) :: load
 
     if (allocated(scene%modes)) then
-      call keep_resultants(scene, iterate)
+      call keep_resultants(scene, iterate%contact_set)
       return
     end if
     if (scene%prescribed) return
@@ -329,7 +330,7 @@ contains
       call settle(operator, scene, means, 0.0_dp, state, iterate)
       if (allocated(scene%modes)) call move_displacements(scene, means, state, iterate)
       ! Distances from another motion were rounded as far as it was off.
-      if (state%peak*sum(abs(means)) <= iterate%residual_norm) exit
+      if (state%peak*sum(abs(means)) <= iterate%lengths%residual_norm) exit
     end do
   end subroutine refresh
 
@@ -385,20 +386,22 @@ contains
     if (.not. allocated(state%basis)) pass%shift = sum(means) - rise
     pass%factors(:size(means)) = means
     if (allocated(scene%modes)) call point_to_modes(scene, iterate%rigid_motion, pass)
-    pass%needs_terms = state%is_exact .or. .not. iterate%rounding > 0.0_dp
-    call pass%go(settle_distances, 4, 0)
-    iterate%residual_norm = pass%largest(1)
-    ! Of so few points the rigid motion takes up all distances.
-    if (iterate%segments%points <= state%motions) iterate%residual_norm = 0.0_dp
-    iterate%penetration = pass%largest(2)
-    iterate%largest_magnitude = operator%common_magnitude(state%largest, state%total)
-    iterate%least_magnitude = 0.0_dp
-    if (iterate%segments%points > 0) iterate%least_magnitude = iterate%largest_magnitude - pass%largest(3)
-    pass%needs_terms = pass%needs_terms .and. allocated(scene%modes)
-    if (pass%needs_terms) iterate%rounding = RIGID_ROUNDINGS*epsilon(1.0_dp)*pass%largest(4)
-    ! Distances are rounded as long as they are large.
-    state%drift = state%drift + epsilon(1.0_sp)*(state%peak*sum(abs(means)) + abs(rise) + iterate%residual_norm)
-    if (iterate%start_error < 0.0_dp) iterate%start_error = relative_error(iterate)
+    associate (lengths => iterate%lengths)
+      pass%needs_terms = state%is_exact .or. .not. lengths%rounding > 0.0_dp
+      call pass%go(settle_distances, 4, 0)
+      lengths%residual_norm = pass%largest(1)
+      ! Of so few points the rigid motion takes up all distances.
+      if (iterate%segments%points <= state%motions) lengths%residual_norm = 0.0_dp
+      lengths%penetration = pass%largest(2)
+      lengths%largest_magnitude = operator%common_magnitude(state%largest, state%total)
+      lengths%least_magnitude = 0.0_dp
+      if (iterate%segments%points > 0) lengths%least_magnitude = lengths%largest_magnitude - pass%largest(3)
+      pass%needs_terms = pass%needs_terms .and. allocated(scene%modes)
+      if (pass%needs_terms) lengths%rounding = RIGID_ROUNDINGS*epsilon(1.0_dp)*pass%largest(4)
+      ! Distances are rounded as long as they are large.
+      state%drift = state%drift + epsilon(1.0_sp)*(state%peak*sum(abs(means)) + abs(rise) + lengths%residual_norm)
+      call lengths%note_start()
+    end associate
   end subroutine settle
 
 end module fuge_single_state

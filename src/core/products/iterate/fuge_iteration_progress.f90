@@ -24,8 +24,8 @@ contains
     integer :: contacts, status
 
     relative = 0.0_dp
-    if (iterate%residual_norm > 0.0_dp) then
-      relative = iterate%residual_norm/max(iterate%least_magnitude, iterate%residual_norm)
+    if (iterate%lengths%residual_norm > 0.0_dp) then
+      relative = iterate%lengths%residual_norm/max(iterate%lengths%least_magnitude, iterate%lengths%residual_norm)
     end if
     contacts = iterate%segments%points
     call tell_monitor(monitor, info%iterations, relative, contacts, status)

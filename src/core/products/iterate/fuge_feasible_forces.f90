@@ -1,7 +1,10 @@
 !> Forces that are feasible: on the contact set only, of the right sign, within their limits, and with the resultants.
 module fuge_feasible_forces
-  use fuge_contact_iterate, only: compute_displacement, contact_iterate, iterate_pass
+  use fuge_contact_displacement, only: compute_displacement
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_set, only: contact_set
+  use fuge_iterate_pass, only: iterate_pass
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator
   use fuge_status, only: fuge_info
@@ -34,7 +37,7 @@ contains
     if (scene%is_unloaded() .and. .not. info%failed()) then
       largest = [maxval(abs(iterate%force)), maxval(abs(iterate%displacement))]
       call scene%rows%raise(largest)
-      if (largest(1) > 0.0_dp) iterate%softness = max(iterate%softness, largest(2)/largest(1))
+      if (largest(1) > 0.0_dp) iterate%gradients%softness = max(iterate%gradients%softness, largest(2)/largest(1))
     end if
   end subroutine make_feasible
 
@@ -47,44 +50,44 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
 
-    call clip_forces(scene, iterate)
+    call clip_forces(scene, iterate%contact_set)
     if (allocated(scene%modes)) then
-      call restore_resultants(scene, iterate, info)
+      call restore_resultants(scene, iterate%contact_set, info)
     else if (.not. scene%prescribed) then
       if (scene%has_limits()) then
         call restore_load_within_limits(scene, iterate)
       else
-        call restore_load(iterate)
+        call restore_load(iterate%contact_set)
       end if
     end if
   end subroutine set_feasible_forces
 
-  !> Forces on the contact set, to which iterate%projection belongs, with the resultants of a scene with modes, from
+  !> Forces on the contact set, to which set%projection belongs, with the resultants of a scene with modes, from
   !> which rounding has led away.
-  subroutine keep_resultants(scene, iterate)
+  subroutine keep_resultants(scene, set)
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_set), intent(inout) :: set
     logical :: possible
 
-    call iterate%projection%correct_resultants(scene%modes, load_on_contact(scene, iterate), iterate%segments, &
-                                               iterate%force, possible)
+    call set%projection%correct_resultants(scene%modes, load_on_contact(scene, set), set%segments, &
+                                               set%force, possible)
   end subroutine keep_resultants
 
   !> No forces off the contact set, nor of the wrong sign on it.
-  subroutine clip_forces(scene, iterate)
+  subroutine clip_forces(scene, set)
     type(contact_scene), intent(in), target :: scene
-    type(contact_iterate), intent(inout), target :: iterate
+    type(contact_set), intent(inout), target :: set
     type(iterate_pass) :: pass
     real(dp) :: none(0)
 
     pass%scene => scene
-    pass%iterate => iterate
+    pass%set => set
     if (.not. allocated(scene%play)) then
-      call pass%go(clip_pushing, 0, none)
+      call pass%go(clip_pushing, size(scene%gap), 0, none)
     else if (scene%has_limits()) then
-      call pass%go(clip_to_ranges, 0, none)
+      call pass%go(clip_to_ranges, size(scene%gap), 0, none)
     else
-      call pass%go(clip_between_stops, 0, none)
+      call pass%go(clip_between_stops, size(scene%gap), 0, none)
     end if
   end subroutine clip_forces
 
@@ -96,7 +99,7 @@ contains
     integer :: i
 
     if (k < 1) found = 0.0_dp
-    associate (force => pass%iterate%force, contact => pass%iterate%contact)
+    associate (force => pass%set%force, contact => pass%set%contact)
       do i = first, last
         force(i) = merge(max(force(i), 0.0_dp), 0.0_dp, contact(i))
       end do
@@ -112,7 +115,7 @@ contains
 
     if (k < 1) found = 0.0_dp
     do i = first, last
-      pass%iterate%force(i) = force_in_range(pass%scene, pass%iterate, i)
+      pass%set%force(i) = force_in_range(pass%scene, pass%set, i)
     end do
   end subroutine clip_to_ranges
 
@@ -124,13 +127,13 @@ contains
     integer :: i
 
     if (k < 1) found = 0.0_dp
-    associate (force => pass%iterate%force)
+    associate (force => pass%set%force)
       do i = first, last
-        if (.not. pass%iterate%contact(i)) then
+        if (.not. pass%set%contact(i)) then
           force(i) = 0.0_dp
         else if (pass%scene%is_tied(i)) then
           cycle
-        else if (pass%iterate%at_upper(i)) then
+        else if (pass%set%at_upper(i)) then
           force(i) = min(force(i), 0.0_dp)
         else
           force(i) = max(force(i), 0.0_dp)
@@ -140,19 +143,19 @@ contains
   end subroutine clip_between_stops
 
   !> The force of point `k`, or the nearest one that it may have: that of its limit, or none, off the contact set.
-  pure function force_in_range(scene, iterate, k) result(force)
+  pure function force_in_range(scene, set, k) result(force)
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_set), intent(in) :: set
     integer, intent(in) :: k
     real(dp) :: force
     real(dp) :: least, most
 
     force = 0.0_dp
-    if (iterate%contact(k)) then
-      call scene%find_range(k, iterate%at_upper(k), least, most)
-      force = min(max(iterate%force(k), least), most)
-    else if (iterate%limited(k) /= 0) then
-      force = scene%limited_force(k, iterate%limited(k))
+    if (set%contact(k)) then
+      call scene%find_range(k, set%at_upper(k), least, most)
+      force = min(max(set%force(k), least), most)
+    else if (set%limited(k) /= 0) then
+      force = scene%limited_force(k, set%limited(k))
     end if
   end function force_in_range
 
@@ -166,20 +169,20 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     real(dp) :: sums(4), factor, rest
 
-    sums = sums_within_limits(scene, iterate)
+    sums = sums_within_limits(scene, iterate%contact_set)
     if (.not. sums(3) > 0.0_dp) then
       if (abs(1.0_dp - sums(2)) <= sum_rounding(scene)) then
         call free_last_limited(scene, iterate)
       else
         call fill_to_load(scene, 1.0_dp - sums(2), iterate)
       end if
-      sums = sums_within_limits(scene, iterate)
+      sums = sums_within_limits(scene, iterate%contact_set)
     end if
     rest = 1.0_dp - sums(2)
     if (rest <= 0.0_dp .or. .not. sums(3) > 0.0_dp) then
       iterate%contact = iterate%contact .or. iterate%limited /= 0
       iterate%limited = 0
-      call restore_load(iterate)
+      call restore_load(iterate%contact_set)
     else if (rest > sums(1) .and. rest < sums(4)) then
       factor = (sums(4) - rest)/(sums(4) - sums(1))
       where (iterate%contact)
@@ -193,16 +196,16 @@ contains
   end subroutine restore_load_within_limits
 
   !> The sums of the forces on the contact set and off it, the points of the set, and the sum of their limits.
-  function sums_within_limits(scene, iterate) result(sums)
+  function sums_within_limits(scene, set) result(sums)
     type(contact_scene), intent(in), target :: scene
-    type(contact_iterate), intent(in), target :: iterate
+    type(contact_set), intent(in), target :: set
     real(dp) :: sums(4)
     type(iterate_pass) :: pass
 
     pass%scene => scene
-    pass%iterate => iterate
-    call pass%go(sum_within_limits, 4, sums)
-    call iterate%segments%space%add(sums)
+    pass%set => set
+    call pass%go(sum_within_limits, size(scene%gap), 4, sums)
+    call set%segments%space%add(sums)
   end function sums_within_limits
 
   !> Found: what sums_within_limits gives.
@@ -215,7 +218,7 @@ contains
 
     if (k < 1) found = 0.0_dp
     sums = 0.0_dp
-    associate (force => pass%iterate%force, contact => pass%iterate%contact, limit => pass%scene%limit)
+    associate (force => pass%set%force, contact => pass%set%contact, limit => pass%scene%limit)
       do i = first, last
         if (contact(i)) then
           sums(1) = sums(1) + force(i)
@@ -263,49 +266,51 @@ contains
     real(dp) :: bounds(2), carried(1), middle
     integer :: step
 
-    ! Distances in `work`; those of points that do not take part are out of reach.
-    iterate%work = sign(1.0_dp, rest)*(scene%gap + iterate%displacement)
-    if (rest > 0.0_dp) then
-      where (iterate%limited /= 0 .or. .not. scene%limit > 0.0_dp .or. scene%gap >= OUT_OF_REACH) &
-        iterate%work = OUT_OF_REACH
-    else
-      where (iterate%limited /= 1) iterate%work = OUT_OF_REACH
-    end if
-    bounds = [-minval(iterate%work), maxval(iterate%work, mask=iterate%work < OUT_OF_REACH)]
-    call iterate%segments%space%raise(bounds)
-    if (.not. -bounds(1) < OUT_OF_REACH) return
-    bounds(1) = -bounds(1) - max(bounds(2) + bounds(1), spacing(bounds(1)))
-    do step = 1, LEVELS
-      middle = bounds(1) + 0.5_dp*(bounds(2) - bounds(1))
-      if (.not. (middle > bounds(1) .and. middle < bounds(2))) exit
-      carried = sum(min(scene%limit, 1.0_dp), mask=iterate%work <= middle)
-      call iterate%segments%space%add(carried)
-      bounds(merge(2, 1, carried(1) >= abs(rest))) = middle
-    end do
-    where (iterate%work <= bounds(1))
-      iterate%limited = merge(1, 0, rest > 0.0_dp)
-      iterate%force = merge(scene%limit, 0.0_dp, rest > 0.0_dp)
-    else where (iterate%work <= bounds(2))
-      iterate%limited = 0
-      iterate%contact = .true.
-      iterate%at_upper = .false.
-    end where
+    associate (work => iterate%gradients%work)
+      ! Distances in `work`; those of points that do not take part are out of reach.
+      work = sign(1.0_dp, rest)*(scene%gap + iterate%displacement)
+      if (rest > 0.0_dp) then
+        where (iterate%limited /= 0 .or. .not. scene%limit > 0.0_dp .or. scene%gap >= OUT_OF_REACH) &
+          work = OUT_OF_REACH
+      else
+        where (iterate%limited /= 1) work = OUT_OF_REACH
+      end if
+      bounds = [-minval(work), maxval(work, mask=work < OUT_OF_REACH)]
+      call iterate%segments%space%raise(bounds)
+      if (.not. -bounds(1) < OUT_OF_REACH) return
+      bounds(1) = -bounds(1) - max(bounds(2) + bounds(1), spacing(bounds(1)))
+      do step = 1, LEVELS
+        middle = bounds(1) + 0.5_dp*(bounds(2) - bounds(1))
+        if (.not. (middle > bounds(1) .and. middle < bounds(2))) exit
+        carried = sum(min(scene%limit, 1.0_dp), mask=work <= middle)
+        call iterate%segments%space%add(carried)
+        bounds(merge(2, 1, carried(1) >= abs(rest))) = middle
+      end do
+      where (work <= bounds(1))
+        iterate%limited = merge(1, 0, rest > 0.0_dp)
+        iterate%force = merge(scene%limit, 0.0_dp, rest > 0.0_dp)
+      else where (work <= bounds(2))
+        iterate%limited = 0
+        iterate%contact = .true.
+        iterate%at_upper = .false.
+      end where
+    end associate
   end subroutine fill_to_load
 
   !> Forces of sum 1; equal ones where there are none.
-  subroutine restore_load(iterate)
-    type(contact_iterate), intent(inout), target :: iterate
+  subroutine restore_load(set)
+    type(contact_set), intent(inout), target :: set
     type(iterate_pass) :: pass
     real(dp) :: none(0), sums(2)
 
-    pass%iterate => iterate
-    call pass%go(sum_forces, 2, sums)
-    pass%value = iterate%segments%space%total(sums(1))
+    pass%set => set
+    call pass%go(sum_forces, size(set%force), 2, sums)
+    pass%value = set%segments%space%total(sums(1))
     if (pass%value > 0.0_dp) then
-      call pass%go(divide_forces, 0, none)
+      call pass%go(divide_forces, size(set%force), 0, none)
     else
-      pass%value = real(iterate%segments%space%total_count(nint(sums(2))), dp)
-      call pass%go(set_equal_forces, 0, none)
+      pass%value = real(set%segments%space%total_count(nint(sums(2))), dp)
+      call pass%go(set_equal_forces, size(set%force), 0, none)
     end if
   end subroutine restore_load
 
@@ -315,7 +320,7 @@ contains
     integer, intent(in) :: k, first, last
     real(dp), intent(inout) :: found(:)
 
-    if (k > 0) found = [sum(pass%iterate%force(first:last)), real(count(pass%iterate%contact(first:last)), dp)]
+    if (k > 0) found = [sum(pass%set%force(first:last)), real(count(pass%set%contact(first:last)), dp)]
   end subroutine sum_forces
 
   !> Divide the forces by the value of the pass. Finds nothing.
@@ -325,7 +330,7 @@ contains
     real(dp), intent(inout) :: found(:)
 
     if (k < 1) found = 0.0_dp
-    pass%iterate%force(first:last) = pass%iterate%force(first:last)/pass%value
+    pass%set%force(first:last) = pass%set%force(first:last)/pass%value
   end subroutine divide_forces
 
   !> Divide 1 among the points in contact, of which the value of the pass is the number. Finds nothing.
@@ -337,46 +342,46 @@ contains
 
     if (k < 1) found = 0.0_dp
     do i = first, last
-      if (pass%iterate%contact(i)) pass%iterate%force(i) = 1.0_dp/pass%value
+      if (pass%set%contact(i)) pass%set%force(i) = 1.0_dp/pass%value
     end do
   end subroutine set_equal_forces
 
   !> Forces with the resultants of the scene, on the set, or on the set and the points of scene%balance.
-  subroutine restore_resultants(scene, iterate, info)
+  subroutine restore_resultants(scene, set, info)
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_set), intent(inout) :: set
     type(fuge_info), intent(inout) :: info
     logical :: possible
     integer :: trial
 
     do trial = 1, 2
-      call iterate%segments%find(iterate%contact, info)
-      if (.not. info%failed()) call iterate%projection%set(scene%modes, iterate%segments, info)
+      call set%segments%find(set%contact, info)
+      if (.not. info%failed()) call set%projection%set(scene%modes, set%segments, info)
       if (info%failed()) return
-      call iterate%projection%correct_resultants(scene%modes, load_on_contact(scene, iterate), iterate%segments, &
-                                                 iterate%force, possible)
+      call set%projection%correct_resultants(scene%modes, load_on_contact(scene, set), set%segments, &
+                                                 set%force, possible)
       if (possible .or. trial > 1) return
-      if (allocated(iterate%limited)) iterate%limited = 0
-      where (.not. iterate%contact) iterate%force = scene%balance
-      if (allocated(iterate%at_upper)) then
-        where (.not. iterate%contact) iterate%at_upper = scene%balance < 0.0_dp
+      if (allocated(set%limited)) set%limited = 0
+      where (.not. set%contact) set%force = scene%balance
+      if (allocated(set%at_upper)) then
+        where (.not. set%contact) set%at_upper = scene%balance < 0.0_dp
       end if
-      iterate%contact = iterate%contact .or. abs(scene%balance) > 0.0_dp
+      set%contact = set%contact .or. abs(scene%balance) > 0.0_dp
     end do
   end subroutine restore_resultants
 
   !> The resultants that the forces on the contact set must have, (m): without those of the forces at their limits.
-  function load_on_contact(scene, iterate) result(load)
+  function load_on_contact(scene, set) result(load)
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_set), intent(in) :: set
     real(dp) :: load(size(scene%load))
     real(dp) :: carried(size(load))
     integer :: j
 
     load = scene%load
     if (.not. scene%has_limits()) return
-    carried = [(sum(iterate%force*scene%modes(:, j), mask=.not. iterate%contact), j=1, size(load))]
-    call iterate%segments%space%add(carried)
+    carried = [(sum(set%force*scene%modes(:, j), mask=.not. set%contact), j=1, size(load))]
+    call set%segments%space%add(carried)
     load = load - carried
   end function load_on_contact
 

@@ -1,0 +1,51 @@
+!> What conjugate gradients on a contact set work with, and what they find of its compliance.
+module fuge_conjugate_gradients
+  use fuge_kinds, only: dp
+  use fuge_lanczos_values, only: lanczos_values
+  implicit none
+  private
+
+  !> Vectors and numbers of conjugate gradients; scaled as forces and gaps of the scene are.
+  type, public :: conjugate_gradients
+    !> Gap plus displacement less motion, and the search direction (force), (n); both are zero off
+    !> the contact set.
+    real(dp), allocatable :: residual(:), direction(:)
+    !> In turn the preconditioned residual and the displacement by `direction`, (n).
+    real(dp), allocatable :: work(:)
+    !> Forces at the start of the last run, (n); allocated where they may grow without bound.
+    real(dp), allocatable :: start(:)
+    !> With modes: the largest residual norm since the last projection of the residual.
+    real(dp) :: unprojected = 0.0_dp
+    !> The residual has been reduced to the tolerance.
+    logical :: converged = .false.
+    !> Forces of the set that store no energy grow without bound, so that there is no solution.
+    logical :: unbounded = .false.
+    !> The coefficients of the last run that made steps.
+    type(lanczos_values) :: lanczos = lanczos_values()
+    !> The largest preconditioned residual over the largest residual, of one that is nearly small enough; force per
+    !> length; 0 before any step.
+    real(dp) :: amplification = 0.0_dp
+    !> The least compliance of this contact set that has been found, length per force: the smallest value of `lanczos`
+    !> over `amplification`; 0 before any step.
+    real(dp) :: least_compliance = 0.0_dp
+    !> The largest displacement by forces of size 1, as far as it has been needed; 0 before; length per force.
+    real(dp) :: softness = 0.0_dp
+  contains
+    procedure :: note_least_compliance
+  end type conjugate_gradients
+
+contains
+
+  !> Keep the least compliance that the last run has found on this set.
+  subroutine note_least_compliance(self)
+    class(conjugate_gradients), intent(inout) :: self
+    real(dp) :: value
+
+    value = self%lanczos%smallest()
+    if (.not. (value > 0.0_dp .and. self%amplification > 0.0_dp)) return
+    value = value/self%amplification
+    if (self%least_compliance > 0.0_dp) value = min(value, self%least_compliance)
+    self%least_compliance = value
+  end subroutine note_least_compliance
+
+end module fuge_conjugate_gradients
