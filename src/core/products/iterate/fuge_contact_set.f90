@@ -42,10 +42,10 @@ contains
 
     call scene%find_range(k, set%at_upper(k), least, most)
     set%contact(k) = .false.
+    if (.not. allocated(set%limited)) return
     set%limited(k) = 0
-    if (set%force(k) > most .and. most > 0.0_dp) set%limited(k) = 1
+    if (set%force(k) > most .and. (most > 0.0_dp .or. scene%is_tied(k))) set%limited(k) = 1
     if (set%force(k) < least .and. (least < 0.0_dp .or. scene%is_tied(k))) set%limited(k) = -1
-    if (scene%is_tied(k) .and. set%force(k) > most) set%limited(k) = 1
   end subroutine leave_stop
 
   !> Point `k` comes to the stop that it penetrates, the lower one if it is `below` that, or whose limit it leaves.
@@ -57,8 +57,10 @@ contains
     logical :: at_upper
 
     at_upper = .not. below
-    if (set%limited(k) /= 0) at_upper = set%limited(k) < 0
-    set%limited(k) = 0
+    if (allocated(set%limited)) then
+      if (set%limited(k) /= 0) at_upper = set%limited(k) < 0
+      set%limited(k) = 0
+    end if
     set%contact(k) = .true.
     set%at_upper(k) = at_upper .and. .not. scene%is_tied(k)
   end subroutine return_to_stop

@@ -2,8 +2,8 @@
 !> point decides from which stop its distance counts, and between which numbers its force is in contact, or its distance
 !> where it is open or at a limit.
 module fuge_single_law
-  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_set, only: contact_set, leave_stop, return_to_stop
   use fuge_kinds, only: dp, sp
   use fuge_point_chunks, only: chunked_pass
   use fuge_single_state, only: single_state
@@ -21,7 +21,7 @@ module fuge_single_law
   !> Found: how many did, the sum of the forces in the new contact, and its points. Or the ranges of all points are set.
   type, extends(chunked_pass) :: law_pass
     type(contact_scene), pointer :: scene => null()
-    type(contact_iterate), pointer :: iterate => null()
+    type(contact_set), pointer :: set => null()
     type(single_state), pointer :: state => null()
     real(dp) :: noise = 0.0_dp
     logical :: sets_ranges = .false.
@@ -32,16 +32,16 @@ module fuge_single_law
 contains
 
   !> As exchange_points of fuge_single_passes.
-  subroutine exchange_states(scene, noise, state, iterate, found)
+  subroutine exchange_states(scene, noise, state, set, found)
     type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: noise
     type(single_state), intent(inout), target :: state
-    type(contact_iterate), intent(inout), target :: iterate
+    type(contact_set), intent(inout), target :: set
     real(dp), intent(out) :: found(3)
     type(law_pass) :: pass
     integer :: j
 
-    call point_to(scene, state, iterate, pass)
+    call point_to(scene, state, set, pass)
     pass%noise = noise
     call pass%run(size(scene%gap), 3)
     found = [(pass%total(j), j=1, 3)]
@@ -49,25 +49,25 @@ contains
   end subroutine exchange_states
 
   !> Stops and ranges for the states of all points; distances count from the new stop.
-  subroutine set_ranges(scene, state, iterate)
+  subroutine set_ranges(scene, state, set)
     type(contact_scene), intent(in), target :: scene
     type(single_state), intent(inout), target :: state
-    type(contact_iterate), intent(in), target :: iterate
+    type(contact_set), intent(in), target :: set
     type(law_pass) :: pass
 
-    call point_to(scene, state, iterate, pass)
+    call point_to(scene, state, set, pass)
     pass%sets_ranges = .true.
     call pass%run(size(scene%gap), 0)
   end subroutine set_ranges
 
-  subroutine point_to(scene, state, iterate, pass)
+  subroutine point_to(scene, state, set, pass)
     type(contact_scene), intent(in), target :: scene
     type(single_state), intent(in), target :: state
-    type(contact_iterate), intent(in), target :: iterate
+    type(contact_set), intent(in), target :: set
     type(law_pass), intent(inout) :: pass
 
     pass%scene => scene
-    pass%iterate => iterate
+    pass%set => set
     pass%state => state
   end subroutine point_to
 
@@ -79,17 +79,17 @@ contains
 
     if (self%sets_ranges) then
       do i = first, last
-        call set_range(self%scene, self%iterate, i, self%state)
+        call set_range(self%scene, self%set, i, self%state)
       end do
       return
     end if
     do i = first, last
-      wrong = may_be_wrong(self%iterate%contact(i), self%iterate%force(i), real(self%state%distance(i), dp), &
+      wrong = may_be_wrong(self%set%contact(i), self%set%force(i), real(self%state%distance(i), dp), &
                            real(self%state%least(i), dp), real(self%state%most(i), dp), self%noise)
       if (wrong) call exchange_point(self, i, wrong)
       if (wrong) self%found(1, k) = self%found(1, k) + 1.0_dp
-      if (.not. self%iterate%contact(i)) cycle
-      if (.not. wrong) self%found(2, k) = self%found(2, k) + self%iterate%force(i)
+      if (.not. self%set%contact(i)) cycle
+      if (.not. wrong) self%found(2, k) = self%found(2, k) + self%set%force(i)
       self%found(3, k) = self%found(3, k) + 1.0_dp
     end do
   end subroutine do_chunk
@@ -115,70 +115,38 @@ contains
     logical, intent(out) :: wrong
     real(dp) :: least, most
 
-    associate (scene => pass%scene, iterate => pass%iterate, force => pass%iterate%force(i))
+    associate (scene => pass%scene, set => pass%set, force => pass%set%force(i))
       wrong = .true.
-      if (.not. iterate%contact(i)) then
-        call return_to_stop(scene, pass%state%distance(i) < pass%state%least(i), i, iterate)
+      if (.not. set%contact(i)) then
+        call return_to_stop(scene, pass%state%distance(i) < pass%state%least(i), i, set)
       else
-        call scene%find_range(i, iterate%at_upper(i), least, most)
-        wrong = max(least - force, force - most) > iterate%tension_noise
-        if (wrong) call leave_stop(scene, least, most, i, iterate)
+        call scene%find_range(i, set%at_upper(i), least, most)
+        wrong = max(least - force, force - most) > set%tension_noise
+        if (wrong) call leave_stop(scene, i, set)
       end if
-      if (wrong) call set_range(scene, iterate, i, pass%state)
+      if (wrong) call set_range(scene, set, i, pass%state)
     end associate
   end subroutine exchange_point
 
-  !> Point `i`, whose force is beyond its range `least` .. `most`, goes to its limit, or opens where the force changes
-  !> its sign.
-  pure subroutine leave_stop(scene, least, most, i, iterate)
-    type(contact_scene), intent(in) :: scene
-    real(dp), intent(in) :: least, most
-    integer, intent(in) :: i
-    type(contact_iterate), intent(inout) :: iterate
-
-    iterate%contact(i) = .false.
-    if (.not. allocated(iterate%limited)) return
-    iterate%limited(i) = 0
-    if (iterate%force(i) > most .and. (most > 0.0_dp .or. scene%is_tied(i))) iterate%limited(i) = 1
-    if (iterate%force(i) < least .and. (least < 0.0_dp .or. scene%is_tied(i))) iterate%limited(i) = -1
-  end subroutine leave_stop
-
-  !> Point `i` comes to the stop that it penetrates, `below` its range at the lower one, or whose limit it leaves.
-  pure subroutine return_to_stop(scene, below, i, iterate)
-    type(contact_scene), intent(in) :: scene
-    logical, intent(in) :: below
-    integer, intent(in) :: i
-    type(contact_iterate), intent(inout) :: iterate
-    logical :: at_upper
-
-    at_upper = .not. below
-    if (allocated(iterate%limited)) then
-      if (iterate%limited(i) /= 0) at_upper = iterate%limited(i) < 0
-      iterate%limited(i) = 0
-    end if
-    iterate%contact(i) = .true.
-    iterate%at_upper(i) = at_upper .and. .not. scene%is_tied(i)
-  end subroutine return_to_stop
-
   !> The stop and the range of point `i`.
-  pure subroutine set_range(scene, iterate, i, state)
+  pure subroutine set_range(scene, set, i, state)
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    type(contact_set), intent(in) :: set
     integer, intent(in) :: i
     type(single_state), intent(inout) :: state
     real(dp) :: least, most, stop
     integer :: limited
 
     limited = 0
-    if (allocated(iterate%limited)) limited = iterate%limited(i)
+    if (allocated(set%limited)) limited = set%limited(i)
     stop = 0.0_dp
     least = -real(ENDLESS, dp)
     most = real(ENDLESS, dp)
     if (scene%gap(i) >= OUT_OF_REACH) then
       continue
-    else if (iterate%contact(i)) then
-      call scene%find_range(i, iterate%at_upper(i), least, most)
-      if (iterate%at_upper(i)) stop = scene%play(i)
+    else if (set%contact(i)) then
+      call scene%find_range(i, set%at_upper(i), least, most)
+      if (set%at_upper(i)) stop = scene%play(i)
     else if (limited > 0) then
       most = 0.0_dp
     else if (limited < 0) then

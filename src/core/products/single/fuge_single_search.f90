@@ -135,7 +135,7 @@ contains
 
     possible = are_in_range(scene, scene%rows%largest(maxval(abs(scene%gap), mask=scene%gap < OUT_OF_REACH)))
     if (.not. possible) return
-    if (allocated(scene%play)) call set_ranges(scene, state, iterate)
+    if (allocated(scene%play)) call set_ranges(scene, state, iterate%contact_set)
     call note_forces(settings, scene, .true., state, iterate)
     call refresh(operator, scene, .true., state, iterate, info)
   end subroutine take_prepared
@@ -163,7 +163,7 @@ contains
       possible = possible .and. (scene%prescribed .or. pass%total(2) > 0.0_dp)
     end if
     if (.not. possible) return
-    if (allocated(scene%play)) call set_ranges(scene, state, iterate)
+    if (allocated(scene%play)) call set_ranges(scene, state, iterate%contact_set)
     call set_load(settings, scene, pass%total(2), state, iterate, info)
     if (.not. info%failed()) call start_displacements(operator, scene, state, iterate, info)
   end subroutine start_forces
@@ -259,7 +259,7 @@ contains
       if (allocated(scene%play)) states = counts_of_states(iterate%contact_set)
       call set_feasible_forces(scene, iterate, info)
       if (allocated(scene%play)) then
-        if (any(counts_of_states(iterate%contact_set) /= states)) call set_ranges(scene, state, iterate)
+        if (any(counts_of_states(iterate%contact_set) /= states)) call set_ranges(scene, state, iterate%contact_set)
       end if
       if (.not. info%failed()) call note_forces(settings, scene, .false., state, iterate)
       return
@@ -353,7 +353,7 @@ contains
 
     noise = iterate%lengths%allowed(SAFETY**2*settings%tolerance)
     if (allocated(scene%play)) then
-      call exchange_states(scene, noise, state, iterate, found)
+      call exchange_states(scene, noise, state, iterate%contact_set, found)
     else
       call state%point_to(scene, iterate, pass)
       pass%noise = noise
