@@ -82,12 +82,10 @@ contains
 
     pass%scene => scene
     pass%set => set
-    if (.not. allocated(scene%play)) then
-      call pass%go(clip_pushing, size(scene%gap), 0, none)
-    else if (scene%has_limits()) then
+    if (allocated(scene%play)) then
       call pass%go(clip_to_ranges, size(scene%gap), 0, none)
     else
-      call pass%go(clip_between_stops, size(scene%gap), 0, none)
+      call pass%go(clip_pushing, size(scene%gap), 0, none)
     end if
   end subroutine clip_forces
 
@@ -106,7 +104,7 @@ contains
     end associate
   end subroutine clip_pushing
 
-  !> Clip forces that have limits. Finds nothing.
+  !> Clip forces of points that may have two stops or limits of their forces. Finds nothing.
   subroutine clip_to_ranges(pass, k, first, last, found)
     class(iterate_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
@@ -118,29 +116,6 @@ contains
       pass%set%force(i) = force_in_range(pass%scene, pass%set, i)
     end do
   end subroutine clip_to_ranges
-
-  !> Clip forces of points that may have two stops. Finds nothing.
-  subroutine clip_between_stops(pass, k, first, last, found)
-    class(iterate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
-    real(dp), intent(inout) :: found(:)
-    integer :: i
-
-    if (k < 1) found = 0.0_dp
-    associate (force => pass%set%force)
-      do i = first, last
-        if (.not. pass%set%contact(i)) then
-          force(i) = 0.0_dp
-        else if (pass%scene%is_tied(i)) then
-          cycle
-        else if (pass%set%at_upper(i)) then
-          force(i) = min(force(i), 0.0_dp)
-        else
-          force(i) = max(force(i), 0.0_dp)
-        end if
-      end do
-    end associate
-  end subroutine clip_between_stops
 
   !> The force of point `k`, or the nearest one that it may have: that of its limit, or none, off the contact set.
   pure function force_in_range(scene, set, k) result(force)
@@ -154,8 +129,8 @@ contains
     if (set%contact(k)) then
       call scene%find_range(k, set%at_upper(k), least, most)
       force = min(max(set%force(k), least), most)
-    else if (set%limited(k) /= 0) then
-      force = scene%limited_force(k, set%limited(k))
+    else if (allocated(set%limited)) then
+      if (set%limited(k) /= 0) force = scene%limited_force(k, set%limited(k))
     end if
   end function force_in_range
 
