@@ -11,7 +11,7 @@ module fuge_limited_points
   private
 
   public :: choose_limited_contact, count_wrong_limited, exchange_limited_points, excess_is_decided, greatest_excess, &
-    release_furthest, return_deepest, set_balanced_forces, step_to_limit
+    keep_on_one_rank, release_furthest, return_deepest, set_balanced_forces, step_to_limit
 
   !> Forces this near to their limits, as a fraction of these, are there.
   real(dp), parameter :: ROUNDING = 1.0e-12_dp

@@ -7,7 +7,8 @@ module fuge_wrong_points
   use fuge_contact_set, only: contact_set
   use fuge_iterate_pass, only: iterate_pass
   use fuge_kinds, only: dp
-  use fuge_limited_points, only: choose_limited_contact, count_wrong_limited, excess_is_decided, greatest_excess
+  use fuge_limited_points, only: choose_limited_contact, count_wrong_limited, excess_is_decided, greatest_excess, &
+    keep_on_one_rank
   use fuge_point_chunks, only: chunked_pass
   use fuge_shared_exchange, only: exchange_in_line
   use fuge_status, only: fuge_info, require_memory
@@ -294,27 +295,19 @@ contains
     real(dp), intent(in) :: noise
     logical, intent(in) :: locked(:)
     integer :: deepest
-    real(dp) :: depth, gap, greatest, owner(1)
+    real(dp) :: depth, greatest
     integer :: k
 
     deepest = 0
     greatest = noise
     do k = 1, size(scene%gap)
       if (iterate%contact(k) .or. locked(k) .or. scene%gap(k) >= OUT_OF_REACH) cycle
-      gap = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
-      depth = -gap
-      if (allocated(scene%play)) then
-        if (scene%play(k) < huge(gap)) depth = max(depth, gap - scene%play(k))
-      end if
+      depth = -measure_of(scene, iterate, k)
       if (depth <= greatest) cycle
       deepest = k
       greatest = depth
     end do
-    associate (space => scene%rows%point_space)
-      owner = real(space%number(), dp)
-      call space%take_from_least(merge(-greatest, huge(greatest), deepest > 0), owner)
-      if (abs(owner(1) - real(space%number(), dp)) > 0.0_dp) deepest = 0
-    end associate
+    call keep_on_one_rank(scene, -greatest, deepest)
   end function deepest_open_point
 
   !> The greatest tension in the contact set, of points that are not tied; 0 if there is none.
