@@ -60,7 +60,7 @@ contains
     type(point_pass) :: pass
     type(replacement_count) :: replacements
     real(dp), allocatable :: factors(:)
-    real(dp) :: energy, largest, previous, ratio, step_length
+    real(dp) :: energy, largest, previous, ratio, step_length, tension
     integer :: iteration, steps
     logical :: goes_on, judges
 
@@ -69,6 +69,7 @@ contains
     iterate%gradients%converged = .false.
     call iterate%gradients%lanczos%restart()
     previous = 1.0_dp
+    tension = 0.0_dp
     steps = 0
     do iteration = 0, LIMIT
       if (has_lost_digits(state%drift, iterate%lengths, residual_needed(iterate%lengths, tolerance, to_tolerance))) then
@@ -95,10 +96,10 @@ contains
       if (steps == 0 .or. iterate%lengths%is_accurate(NEARLY*tolerance)) then
         iterate%gradients%amplification = largest/iterate%lengths%residual_norm
       end if
-      if (judges .and. largest <= DECISIVE*state%tension) return
+      if (judges .and. largest <= DECISIVE*tension) return
       call multiply_single(operator, state%direction, state%work, info)
       if (info%failed()) return
-      call step(scene, energy, state, iterate, step_length)
+      call step(scene, energy, state, iterate, step_length, tension)
       lost = .not. step_length > 0.0_dp
       if (lost) return
       call iterate%gradients%lanczos%add(step_length, ratio)
@@ -175,13 +176,14 @@ contains
   end subroutine estimate_compliance
 
   !> Go to the minimum of the energy along the search direction, whose displacements are state%work; `step_length` is 0
-  !> where the curvature is not positive, or nothing but rounding.
-  subroutine step(scene, energy, state, iterate, step_length)
+  !> where the curvature is not positive, or nothing but rounding; `tension` becomes the largest one after the step.
+  subroutine step(scene, energy, state, iterate, step_length, tension)
     type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: energy
     type(single_state), intent(inout), target :: state
     type(contact_iterate), intent(inout), target :: iterate
     real(dp), intent(out) :: step_length
+    real(dp), intent(inout) :: tension
     type(point_pass) :: pass
     real(dp) :: means(state%motions)
     real(dp) :: curvature, rise
@@ -210,7 +212,7 @@ contains
     call move_by(scene, state%offset(:m), iterate)
     iterate%lengths%residual_norm = pass%largest(1)
     iterate%lengths%penetration = pass%largest(2)
-    state%tension = pass%largest(3)
+    tension = pass%largest(3)
   end subroutine step
 
 end module fuge_single_gradients

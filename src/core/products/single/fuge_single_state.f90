@@ -48,8 +48,6 @@ module fuge_single_state
     real(dp) :: flexibility = 0.0_dp
     !> The sum of the magnitudes of the forces.
     real(dp) :: total = 1.0_dp
-    !> The largest tension.
-    real(dp) :: tension = 0.0_dp
     !> A product has given what is not a number; maxima do not show it.
     logical :: is_lost = .false.
     !> The displacements of the iterate are those of its forces, from a product in double precision.
