@@ -267,14 +267,15 @@ def _both_forms(P: Any) -> tuple[Any, Any]:
     if not is_sparse(P):
         dense = _finite("P", _arrays.symmetric("P", P))
         return dense, dense
+    from scipy.sparse import diags
+
     columns = compressed("P", P)
     _finite("P.value", columns.value)
     _arrays.check_shape("P", columns.shape, (columns.shape[0], columns.shape[0]))
     matrix = columns.tocsc()
-    diagonal, places = matrix.diagonal(), matrix.tocoo()
+    places = matrix.tocoo()
     if np.all(places.row <= places.col) or np.all(places.row >= places.col):
-        matrix = matrix + matrix.T
-        matrix.setdiag(diagonal)
+        matrix = (matrix + matrix.T - diags(matrix.diagonal())).tocsc()
     return matrix, columns
 
 
