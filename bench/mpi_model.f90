@@ -7,7 +7,7 @@
 ! over the points, and the extension of residuals. On P ranks that share n x n cells it takes
 !
 !   W(n) n^2/P + 24 n^2/(P B) (1 - 1/P) + (4 (P - 1) + SUMS log2(P)) L (levels) + EXTENDED/B
-!     + (ROWS + AGREEMENTS log2(P)) L (shared levels)
+!     + ROWS L (shared levels)
 !
 ! W(n) = (product + preconditioning) (a + b log2 n) + passes is the work at a cell, with all cores busy. The latencies
 ! count once for each grid, as if coarser grids took as many iterations as the finest one; each grid lies on as many
@@ -22,9 +22,9 @@ program mpi_model
 
   ! Sums and maxima of an iteration.
   integer, parameter :: SUMS = 20
-  ! To extend residuals and to collect forces: rows to and from neighbours, and agreements of all ranks, on each grid
-  ! that ranks share, and numbers of the first grid that they do not share, there and back.
-  integer, parameter :: ROWS = 16, AGREEMENTS = 10
+  ! To extend residuals and to collect forces: rows to and from neighbours on each grid that ranks share, and numbers
+  ! of the first grid that they do not share, there and back.
+  integer, parameter :: ROWS = 8
   real(dp), parameter :: EXTENDED = 4.0_dp*16384.0_dp
   ! As in fuge_slab_rows.
   integer, parameter :: FEWEST_CELLS = 16384, SHORTEST = 128
@@ -63,6 +63,8 @@ contains
     if (rank /= 0) return
     write (*, '(/a,es9.2,a,es9.2,a)') 'Predicted for a network of ', network%latency, ' s and ', &
       8.0_dp/network%number, ' bytes/s at each rank, an iteration in ms:'
+    write (*, '(a)') '| cells | ranks | with rows | work | bandwidth | latency | sums | total ' &
+      //'| times faster than one |', '| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |'
     call predict(network, 16384)
     call predict(network, 65536)
   end subroutine run
@@ -230,24 +232,37 @@ contains
       real(info%products, dp)*sum(iteration(here, n, real(ranks, dp), .false.)), ' s'
   end subroutine check
 
-  ! Table of an iteration on 8 to 4096 ranks.
+  ! Rows of the table of an iteration on 8 to 4096 ranks.
   subroutine predict(network, n)
     type(machine), intent(in) :: network
     integer, intent(in) :: n
-    real(dp) :: alone, parts(4), share
-    integer :: p
+    real(dp) :: alone, parts(4)
+    integer :: k, p
 
-    write (*, '(/a,i6,a)') 'n ', n, &
-      ':  ranks  with rows      work  bandwidth    latency       sums      total   speed-up'
     alone = sum(iteration(network, n, 1.0_dp, .true.))
     p = 8
     do while (p <= 4096)
       parts = iteration(network, n, real(p, dp), .true.)
-      share = active(n, real(p, dp))
-      write (*, '(8x,i8,i11,5f11.2,f11.1)') p, nint(share), 1.0e3_dp*parts, 1.0e3_dp*sum(parts), alone/sum(parts)
+      write (*, '(2(a,i0),2(a,i0),6a)') '| ', n, ' x ', n, ' | ', p, ' | ', nint(active(n, real(p, dp))), &
+        (' | '//short(1.0e3_dp*parts(k)), k=1, size(parts)), ' | '//short(1.0e3_dp*sum(parts)), &
+        ' | '//short(alone/sum(parts))//' |'
       p = merge(4*p, 2*p, p >= 16)
     end do
   end subroutine predict
+
+  ! Two digits at least.
+  pure function short(value) result(word)
+    real(dp), intent(in) :: value
+    character(len=:), allocatable :: word
+    character(len=16) :: field
+
+    if (value < 9.95_dp) then
+      write (field, '(f4.1)') value
+    else
+      write (field, '(i0)') nint(value)
+    end if
+    word = trim(adjustl(field))
+  end function short
 
   ! Seconds of work, of bandwidth, of latency and of sums in an iteration on p ranks; latencies of all grids, with
   ! `coarser`, or of the finest one.
@@ -271,7 +286,6 @@ contains
       parts(3) = parts(3) + 4.0_dp*(active(m, p) - 1.0_dp)*where%latency
       if (q > 1.0_dp .and. real(m, dp)**2 >= FEWEST_CELLS) then
         parts(3) = parts(3) + real(ROWS, dp)*where%latency
-        parts(4) = parts(4) + real(AGREEMENTS, dp)*where%latency*log(p)/log(2.0_dp)
       end if
       parts(4) = parts(4) + real(SUMS, dp)*where%latency*log(p)/log(2.0_dp)
       m = m/2

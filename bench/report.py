@@ -29,7 +29,8 @@ SMALLEST_LINE = 32
 BOUNDS = ("dense", "path", "fft", "surface", "condensation")
 # Other programs that write their tables themselves, by the name of their place in the manual.
 PROGRAMS = {"accuracy": "accuracy", "graded": "graded_cells", "costs": "costs", "products_of_scenes": "scenes",
-            "general_scenes": "general_scenes", "steps": "load_steps", "stresses": "stresses",
+            "general_scenes": "general_scenes", "general_scenes_mpi": "general_scenes_mpi",
+            "surface_mpi": "surface_mpi", "mpi_model": "mpi_model", "steps": "load_steps", "stresses": "stresses",
             "rough": "rough_grids", "one_way": "structures",
             "load_cases": "load_cases", "increments": "increments", "threads": "threads",
             "threads_model": "threads_model", "layered_waves": "layered_waves",

@@ -1,12 +1,14 @@
-! A surface over MPI and by one process: least times of solves and products, the share of messages in a product, and
-! what a rank allocates.
+! A surface over MPI and by one process: least times of solves and products, and what a rank allocates.
 !
 !   mpirun -n RANKS surface_mpi N [tolerance] [repetitions] [free|periodic] [alone]
 !
-! N x N cells; with `alone` rank 0 also solves by fuge_halfspace_operator, in turn with the ranks, while they wait.
+! N x N cells; with `alone` rank 0 also solves by fuge_halfspace_operator, in turn with the ranks, while they wait, and
+! there is a row of a table: products + preconditionings of one process and of the ranks, seconds of both and their
+! ratio, seconds of a product of both and of its messages alone.
 program surface_mpi
   use, intrinsic :: iso_fortran_env, only: int64
   use bench_exchanges, only: exchange_time, sent_numbers
+  use bench_ranks, only: wait_for_rank_0
   use fuge, dp => fuge_dp
   use fuge_mpi, only: fuge_mpi_halfspace_operator
   use mpi_f08
@@ -27,7 +29,7 @@ contains
     type(fuge_halfspace_operator) :: whole
     type(fuge_problem) :: problem, whole_problem
     type(fuge_info) :: info, whole_info
-    real(dp) :: best, product_time, set_time, start, tolerance, whole_best, whole_product
+    real(dp) :: best, messages, product_time, set_time, start, tolerance, whole_best, whole_product
     integer :: boundary, k, n, repetitions, rows(2)
     logical :: alone
 
@@ -60,29 +62,27 @@ contains
       call MPI_Barrier(MPI_COMM_WORLD)
       call time_solve(shared, problem, tolerance, best, product_time, info)
     end do
-    if (rank == 0) then
-      write (*, '(a,i7,a,i4,a,f9.3,a,f9.3,a,f9.4,a,es9.2,a,3i6)') 'n ', n, '  ranks ', ranks, '  set ', set_time, &
-        ' s  solve ', best, ' s  product ', product_time, ' s  residual ', info%residual, '  counts ', &
-        info%iterations, info%products, info%preconditionings
-      if (alone) write (*, '(a,f9.3,a,f9.4,a,f7.3,a,3i6)') 'one process:  solve ', whole_best, ' s  product ', &
-        whole_product, ' s  ratio ', whole_best/best, '  counts ', whole_info%iterations, whole_info%products, &
-        whole_info%preconditionings
-    end if
+    if (rank == 0) write (*, '(a,i7,a,i4,a,f9.3,a,f9.3,a,f9.4,a,es9.2,a,3i6)') 'n ', n, '  ranks ', ranks, '  set ', &
+      set_time, ' s  solve ', best, ' s  product ', product_time, ' s  residual ', info%residual, '  counts ', &
+      info%iterations, info%products, info%preconditionings
+    messages = 0.0_dp
+    if (ranks > 1) messages = message_time(n, boundary == FUGE_FREE)
+    if (rank == 0 .and. alone) write (*, '(2(a,i0),2a,2(i0,a,i0,a),6(a,1x),a)') '| ', n, ' x ', n, &
+      trim(merge(', periodic', '          ', boundary == FUGE_PERIODIC)), ' | ', whole_info%products, ' + ', &
+      whole_info%preconditionings, ' | ', info%products, ' + ', info%preconditionings, ' |', &
+      ' '//decimal(whole_best, 3)//' |', decimal(best, 3)//' |', decimal(whole_best/best, 1)//' |', &
+      decimal(whole_product, 4)//' |', decimal(product_time, 4)//' |', decimal(messages, 4)//' |'
     call report_memory(n, ranks)
-    if (ranks > 1) call report_messages(n, boundary == FUGE_FREE, product_time)
   end subroutine run
 
   ! Time of the two exchanges of a product if nothing else is done, if all ranks have rows.
-  subroutine report_messages(n, padded, product_time)
+  function message_time(n, padded) result(seconds)
     integer, intent(in) :: n
     logical, intent(in) :: padded
-    real(dp), intent(in) :: product_time
     real(dp) :: seconds
 
     seconds = 2.0_dp*exchange_time(MPI_COMM_WORLD, sent_numbers(n, ranks, padded), 5)
-    if (rank == 0) write (*, '(a,f9.4,a,f5.1,a)') 'messages of a product: ', seconds, ' s, ', &
-      100.0_dp*seconds/product_time, ' %'
-  end subroutine report_messages
+  end function message_time
 
   ! A sphere with waves, or waves alone.
   subroutine fill_gap(n, first, last, boundary, problem)
@@ -129,19 +129,6 @@ contains
     end do
   end subroutine time_solve
 
-  ! The other ranks sleep, so that they take no time from rank 0.
-  subroutine wait_for_rank_0()
-    type(MPI_Request) :: request
-    logical :: done
-
-    call MPI_Ibarrier(MPI_COMM_WORLD, request)
-    done = .false.
-    do while (.not. done)
-      call execute_command_line('sleep 0.01')
-      call MPI_Test(request, done, MPI_STATUS_IGNORE)
-    end do
-  end subroutine wait_for_rank_0
-
   ! The most memory that a rank has had, in arrays of its share of the cells.
   subroutine report_memory(n, ranks)
     integer, intent(in) :: n, ranks
@@ -161,6 +148,18 @@ contains
     write (*, '(a,i4,a,f9.3,a,f7.2,a)') 'rank ', rank, ': at most ', 1.024e-6_dp*real(kilobytes, dp), ' GB, ', &
       128.0_dp*real(kilobytes, dp)*ranks/real(n, dp)**2, ' arrays of its share'
   end subroutine report_memory
+
+  ! `value` with so many digits behind the point.
+  pure function decimal(value, digits) result(word)
+    real(dp), intent(in) :: value
+    integer, intent(in) :: digits
+    character(len=:), allocatable :: word
+    character(len=24) :: field, form
+
+    write (form, '(a,i0,a)') '(f20.', digits, ')'
+    write (field, form) value
+    word = trim(adjustl(field))
+  end function decimal
 
   subroutine stop_on(info)
     type(fuge_info), intent(in) :: info

@@ -201,11 +201,15 @@ function(fuge_write_reference root file)
   endforeach()
   list(REMOVE_DUPLICATES folders)
   set(page "# Fortran interface\n\nWhat the module `fuge` has, by the folders of the source, from the docstrings there;
-the first part of a folder is its component, whose names the modules `fuge_core`, `fuge_halfspace` and so on have alone.
+the first part of a folder, the second after bodies/, is its component, whose names the modules `fuge_core`,
+`fuge_halfspace` and so on have alone.
 `dp` is `fuge_dp`, and `self` the variable of the type.\n\n")
   foreach(folder IN LISTS folders)
     string(MAKE_C_IDENTIFIER "${folder}" key)
     list(JOIN names_${key} ", " names)
+    if(NOT names)
+      set(names "constants")
+    endif()
     string(APPEND page "- ${folder}: ${names}\n")
   endforeach()
   foreach(folder IN LISTS folders)

@@ -177,8 +177,9 @@ int fuge_operator_set_diagonal(fuge_operator *op, const double *diagonal,
                                char *message, size_t len);
 
 /* Points that are equal cells of a grid, for callback operators only and not during a solve:
- * with one of the two calls that follow a callback operator needs as few products as the
- * built-in operators of grids.  The solution is that of apply alone, to the tolerance.
+ * with fuge_operator_set_auxiliary, or with a preconditioner and fuge_operator_set_coarser, a
+ * callback operator needs as few products as the built-in operators of grids.  The solution is
+ * that of apply alone, to the tolerance.
  *   nx, ny  in  cells in a row, and rows; point i + nx*j is the cell i of row j, from 0; ny = 1
  *               for cells side by side on a line
  * Another grid than before forgets what those calls have set.  FUGE_ERR_SIZE unless

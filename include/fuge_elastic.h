@@ -161,6 +161,7 @@ typedef struct fuge_interface_stress {
   int cell_below;
   int cell_of_shear;
   int cell_of_opening;
+  double reserved[5];
 } fuge_interface_stress;
 
 /* Those of the surface and of all interfaces of layers below a grid, from above.

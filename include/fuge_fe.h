@@ -374,18 +374,21 @@ typedef struct fuge_link_law {
   double compliance;            /* of the link, length per force; 0: rigid */
   double limit;                 /* of the force at the first stop; HUGE_VAL: none */
   double limit_upper;           /* likewise at the second */
+  double reserved[7];
 } fuge_link_law;
 
 /* Kinds of members. */
 enum { FUGE_TENSION_ONLY = 1, FUGE_COMPRESSION_ONLY = -1 };
 
-/* A straight member without bending, in tension or in compression only. */
+/* A straight member without bending, in tension or in compression only: `fuge_member member = {0};`,
+ * then set at least the first three. */
 typedef struct fuge_member {
   int kind;                     /* FUGE_TENSION_ONLY or FUGE_COMPRESSION_ONLY */
   double area, modulus;         /* of the section, and Young's; both > 0 */
   double slack;                 /* a cable is longer than the distance of its ends by so much, a
                                    strut shorter; length.  Negative: it is prestressed */
   double yield;                 /* force at which it yields; 0: never */
+  double reserved[7];
 } fuge_member;
 
 /* Set *law to that of a hard link: no gap, no second stop, no compliance, no limits.  Zeros are

@@ -7,15 +7,16 @@ stiffness matrix, a row of G a contact point, its multiplier the contact force, 
 from __future__ import annotations
 
 import warnings
+from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, Tuple
+from typing import Any, Iterator, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fuge import _arrays
 from fuge.body import Body
-from fuge.columns import CompressedColumns, compressed, is_sparse
+from fuge.columns import compressed, is_sparse
 from fuge.contact import Contact, Info
 from fuge.errors import (
     EquilibriumError,
@@ -76,7 +77,8 @@ def solve_lcp(M: ArrayLike, q: ArrayLike) -> LcpSolution:
     Raises
     ------
     MatrixError
-        M is not symmetric or not positive semidefinite.
+        M is not symmetric; or not positive semidefinite, where the solve comes upon it. If it does not, the solution is
+        one of perhaps several, and its bounds are infinite.
     EquilibriumError
         There is no solution.
 
@@ -86,15 +88,43 @@ def solve_lcp(M: ArrayLike, q: ArrayLike) -> LcpSolution:
     >>> solution.z.round(12).tolist()
     [1.333333333333, 2.333333333333]
     """
-    matrix = _arrays.symmetric("M", M)
-    solver = Solver(matrix)
-    solver.set_gap(_arrays.vector("q", q, matrix.shape[0]))
-    solver.set_approach(0.0)
-    contact = _solved(
-        solver, "z is not unique: that given is one of many, w is the only one", "there is no z >= 0 with M z + q >= 0"
-    )
+    matrix = _finite("M", _arrays.symmetric("M", M))
+    with _words_of_programs("M", matrix, "semidefinite"):
+        solver = Solver(matrix)
+        solver.set_gap(_finite("q", _arrays.vector("q", q, matrix.shape[0])))
+        solver.set_approach(0.0)
+        contact = _solved(
+            solver,
+            "z is not unique: that given is one of many, w is the only one",
+            "there is no z >= 0 with M z + q >= 0",
+        )
     undecided, proof = _undecided(solver, contact)
     return LcpSolution(contact.force, contact.gap, undecided, proof.force_bound, proof.gap_bound, contact.info)
+
+
+def _finite(name: str, values: Doubles) -> Doubles:
+    """The values, unless one of them is NaN or infinite."""
+    wrong = np.argwhere(~np.isfinite(values))
+    if wrong.size:
+        place = ", ".join(map(str, wrong[0]))
+        raise InputError(f"{name}[{place}] = {values[tuple(wrong[0])]} is not a finite number", Status.ERR_NOT_FINITE)
+    return values
+
+
+@contextmanager
+def _words_of_programs(name: str, matrix: Any, kind: str) -> Iterator[None]:
+    """Refusals of a matrix, which the library calls an influence or a stiffness matrix, by its name here."""
+    try:
+        yield
+    except MatrixError as failure:
+        if failure.status != Status.ERR_NOT_SYMMETRIC:
+            raise MatrixError(f"{name} is not positive {kind}, to rounding", failure.status) from failure
+        i, j = map(int, np.unravel_index(int(abs(matrix - matrix.T).argmax()), matrix.shape))
+        raise MatrixError(
+            f"{name}[{i}, {j}] = {matrix[i, j]:g} and {name}[{j}, {i}] = {matrix[j, i]:g} differ: {name} has to be "
+            f"symmetric; if that is rounding, pass ({name} + {name}.T)/2",
+            failure.status,
+        ) from failure
 
 
 def _solved(solver: Solver, not_unique: str, no_solution: str) -> Contact:
@@ -182,7 +212,7 @@ def solve_qp(
     Parameters
     ----------
     P : array_like of shape (n, n), scipy.sparse matrix or CompressedColumns
-        Symmetric, positive definite.
+        Symmetric, positive definite; a sparse one may be one of its triangles.
     q : array_like, shape (n,)
     G, h : array_like, shapes (m, n) and (m,), optional
     A, b : array_like, shapes (k, n) and (k,), optional
@@ -202,14 +232,16 @@ def solve_qp(
     >>> solution.x.round(12).tolist(), solution.z.round(12).tolist()
     ([0.2, 1.4], [1.6, 0.0])
     """
-    matrix = compressed("P", P) if is_sparse(P) else _arrays.symmetric("P", P)
+    # As an array or a csc_matrix, for products, and as a body takes it.
+    matrix, stiffness = _both_forms(P)
     n = matrix.shape[0]
-    linear = _arrays.vector("q", q, n)
+    linear = _finite("q", _arrays.vector("q", q, n))
     constraints = _Constraints(_rows("G", G, "h", h, n), _rows("A", A, "b", b, n), *_bounds(lb, ub, n))
-    body = Body(matrix)
-    body.set_load(-linear)
-    body.set_contact(*constraints.directions())
-    condensed = body.condense()
+    with _words_of_programs("P", matrix, "definite"):
+        body = Body(stiffness)
+        body.set_load(-linear)
+        body.set_contact(*constraints.directions())
+        condensed = body.condense()
     solver = Solver(condensed.influence)
     solver.set_gap(constraints.slack + condensed.displacement, constraints.play)
     solver.set_approach(0.0)
@@ -230,14 +262,31 @@ def solve_qp(
     return QpSolution(x, z, y, z_box, undecided, is_proved, residual, contact.info)
 
 
+def _both_forms(P: Any) -> tuple[Any, Any]:
+    """P with both triangles, as an array or as ``scipy.sparse.csc_matrix``, and as a body takes it."""
+    if not is_sparse(P):
+        dense = _finite("P", _arrays.symmetric("P", P))
+        return dense, dense
+    from scipy.sparse import diags
+
+    columns = compressed("P", P)
+    _finite("P.value", columns.value)
+    _arrays.check_shape("P", columns.shape, (columns.shape[0], columns.shape[0]))
+    matrix = columns.tocsc()
+    places = matrix.tocoo()
+    if np.all(places.row <= places.col) or np.all(places.row >= places.col):
+        matrix = (matrix + matrix.T - diags(matrix.diagonal())).tocsc()
+    return matrix, columns
+
+
 def _rows(matrix_name: str, matrix: ArrayLike | None, name: str, right: ArrayLike | None, n: int) -> Rows:
     """A matrix with n columns and its right side; without rows if it is not given."""
     if matrix is None and right is None:
         return np.empty((0, n)), np.empty(0)
     if matrix is None or right is None:
         raise InputError(f"{matrix_name} and {name} belong together: one of them is missing", Status.ERR_SIZE)
-    rows = _arrays.doubles(matrix_name, matrix, (None, n))
-    return rows, _arrays.vector(name, right, len(rows))
+    rows = _finite(matrix_name, _arrays.doubles(matrix_name, matrix, (None, n)))
+    return rows, _finite(name, _arrays.vector(name, right, len(rows)))
 
 
 def _bounds(lb: ArrayLike | None, ub: ArrayLike | None, n: int) -> Rows:
@@ -309,13 +358,12 @@ class _Constraints:
 
     def residual(self, matrix: Any, linear: Doubles, x: Doubles, force: Doubles) -> float:
         """Largest violation of the conditions of optimality, each relative to the sizes of what it sums."""
-        if isinstance(matrix, CompressedColumns):
-            matrix = matrix.tocsc()
         z, y, box = self.multipliers(force)
         multiplier, largest = np.r_[z, y], np.max(np.abs(x))
         balance = np.abs(matrix @ x + linear + self._rows.T @ multiplier + box)
-        size = abs(matrix).sum(axis=1) * largest + np.abs(linear) + np.abs(self._rows).T @ np.abs(multiplier)
-        worst = _largest_ratio(balance, np.ravel(size) + np.abs(box))
+        sums = np.ravel(abs(matrix).sum(axis=1))
+        size = sums * largest + np.abs(linear) + np.abs(self._rows).T @ np.abs(multiplier)
+        worst = _largest_ratio(balance, size + np.abs(box))
         if self.excluded:
             return worst
         rows = (self._scale[:, None] * self._rows)[self._used]

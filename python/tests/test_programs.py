@@ -6,6 +6,7 @@ import warnings
 
 import numpy as np
 from numpy.testing import assert_allclose
+from scipy.sparse import coo_matrix, csc_matrix
 
 import fuge
 
@@ -60,13 +61,24 @@ class Lcp(unittest.TestCase):
         self.assertEqual(found.undecided.tolist(), [1])
 
     def test_refusals(self):
-        with self.assertRaisesRegex(fuge.MatrixError, r"M\[1, 0\] and M\[0, 1\]|differ"):
+        with self.assertRaisesRegex(fuge.MatrixError, r"M\[0, 1\] = 2 and M\[1, 0\] = 0 differ: M has to be symmetric"):
             fuge.solve_lcp(murty(3), -np.ones(3))
-        with self.assertRaises(fuge.MatrixError):
-            fuge.solve_lcp([[-1.0]], [-1.0])
+        for matrix in ([[-1.0]], [[1.0, 2.0], [2.0, 1.0]]):
+            with self.assertRaisesRegex(fuge.MatrixError, "M is not positive semidefinite, to rounding"):
+                fuge.solve_lcp(matrix, -np.ones(len(matrix)))
+        with self.assertRaisesRegex(fuge.InputError, r"M\[0, 1\] = nan is not a finite number"):
+            fuge.solve_lcp([[1.0, np.nan], [0.0, 1.0]], [1.0, 1.0])
+        with self.assertRaisesRegex(fuge.InputError, r"q\[0\] = inf is not a finite number"):
+            fuge.solve_lcp([[1.0]], [np.inf])
         for matrix, q in (([[0.0]], [-1.0]), ([[1.0, -1.0], [-1.0, 1.0]], [-1.0, 0.0])):
             with self.assertRaisesRegex(fuge.EquilibriumError, "there is no z >= 0"):
                 fuge.solve_lcp(matrix, q)
+
+    def test_not_semidefinite(self):
+        # A solution that needs no more of M than its first element, and is not proved.
+        found = fuge.solve_lcp([[1.0, 2.0], [2.0, 1.0]], [-1.0, 0.0])
+        assert_allclose(found.z, [1.0, 0.0])
+        self.assertTrue(np.all(np.isinf(found.z_bound)))
 
 
 class Qp(unittest.TestCase):
@@ -115,6 +127,17 @@ class Qp(unittest.TestCase):
         assert_allclose(zero_row.x, [-1.0, -2.0])
         assert_allclose(zero_row.z, [0.0])
 
+    def test_sparse(self):
+        dense = np.array([[2.0, 0.5, 0.0], [0.5, 1.0, 0.25], [0.0, 0.25, 3.0]])
+        rest = [-1.0, -1.0, 2.0], [[1.0, 1.0, 1.0]], [0.5], None, None, -1.0, 1.0
+        wanted = fuge.solve_qp(dense, *rest)
+        for part in (dense, np.triu(dense), np.tril(dense)):
+            for form in (csc_matrix, coo_matrix):
+                found = fuge.solve_qp(form(part), *rest)
+                assert_allclose(found.x, wanted.x, rtol=1e-14)
+                assert_allclose(found.z, wanted.z, rtol=1e-13)
+                self.assertLess(found.residual, 1e-14)
+
     def test_any_unit(self):
         for unit in (1e-150, 1e-8, 1.0, 1e150):
             found = fuge.solve_qp(2.0 * np.eye(2), [-2.0, -5.0], [[unit, 2.0 * unit]], [3.0 * unit])
@@ -123,14 +146,20 @@ class Qp(unittest.TestCase):
 
     def test_refusals(self):
         cases = [
-            (dict(P=-np.eye(2)), fuge.MatrixError, ""),
+            (dict(P=-np.eye(2)), fuge.MatrixError, "P is not positive definite, to rounding"),
+            (dict(P=[[1.0, 1.0], [1.0, 1.0]]), fuge.MatrixError, "P is not positive definite, to rounding"),
+            (dict(P=[[1.0, 0.5], [0.0, 1.0]]), fuge.MatrixError, r"P\[0, 1\] = 0.5 and P\[1, 0\] = 0 differ"),
+            (dict(P=csc_matrix([[1.0, 0.5], [0.2, 1.0]])), fuge.MatrixError, r"P\[0, 1\] = 0.5 and P\[1, 0\] = 0.2"),
+            (dict(P=csc_matrix(np.ones((2, 3)))), fuge.InputError, "P has the shape"),
+            (dict(P=csc_matrix([[np.inf]])), fuge.InputError, r"P.value\[0\] = inf"),
+            (dict(G=np.eye(2), h=[0.0, np.inf]), fuge.InputError, r"h\[1\] = inf is not a finite number"),
             (dict(G=[[1.0, 0.0], [-1.0, 0.0]], h=[-1.0, -1.0]), fuge.EquilibriumError, "no x satisfies all"),
             (dict(A=[[0.0, 0.0]], b=[1.0]), fuge.EquilibriumError, r"no x satisfies A\[0\]"),
             (dict(lb=[0.0, 2.0], ub=[1.0, 1.0]), fuge.InputError, r"lb\[1\] = 2 and ub\[1\] = 1"),
             (dict(G=np.eye(2)), fuge.InputError, "G and h belong together"),
             (dict(G=np.eye(3), h=np.ones(3)), fuge.InputError, "G has the shape"),
             (dict(lb=np.nan), fuge.InputError, r"lb\[0\] = nan"),
-            (dict(q=[np.nan, 0.0]), fuge.InputError, "NaN"),
+            (dict(q=[np.nan, 0.0]), fuge.InputError, r"q\[0\] = nan"),
         ]
         for changed, kind, message in cases:
             with self.subTest(changed), self.assertRaisesRegex(kind, message):

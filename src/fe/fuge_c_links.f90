@@ -21,13 +21,13 @@ module fuge_c_links
 
   !> struct fuge_link_law.
   type, bind(c) :: c_link_law
-    real(c_double) :: gap, play, compliance, limit, limit_upper
+    real(c_double) :: gap, play, compliance, limit, limit_upper, reserved(7)
   end type c_link_law
 
   !> struct fuge_member.
   type, bind(c) :: c_member
     integer(c_int) :: kind
-    real(c_double) :: area, modulus, slack, yield
+    real(c_double) :: area, modulus, slack, yield, reserved(7)
   end type c_member
 
   !> Behind struct fuge_links.
@@ -45,7 +45,7 @@ contains
     if (.not. c_associated(destination)) return
     call c_f_pointer(destination, law)
     law = c_link_law(hard%gap, infinite_if_none(hard%play), hard%compliance, infinite_if_none(hard%limit), &
-                     infinite_if_none(hard%limit_upper))
+                     infinite_if_none(hard%limit_upper), 0.0_c_double)
   end subroutine c_default_link_law
 
   function c_links_create(destination, message, length) bind(c, name='fuge_links_create') result(status)

@@ -9,10 +9,10 @@ static int has_promised_sizes(void) {
   if (sizeof(fuge_pressing) != 176 || sizeof(fuge_resolved_report) != 448) return 0;
 #endif
 #ifdef FUGE_ELASTIC_H
-  if (sizeof(fuge_stress_peak) != 160 || sizeof(fuge_interface_stress) != 56) return 0;
+  if (sizeof(fuge_stress_peak) != 160 || sizeof(fuge_interface_stress) != 96) return 0;
 #endif
 #ifdef FUGE_FE_H
-  if (sizeof(fuge_link_law) != 40 || sizeof(fuge_member) != 40) return 0;
+  if (sizeof(fuge_link_law) != 96 || sizeof(fuge_member) != 96) return 0;
 #endif
 #ifdef FUGE_PUNCHES_H
   if (sizeof(fuge_punch_report) != 176) return 0;

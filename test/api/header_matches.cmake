@@ -2,7 +2,8 @@
 #
 # Fails with the names where the C headers and the sources differ. Each of the components of SOURCES/components.txt
 # has a header fuge_<component>.h. It declares the functions that the C files of the component define and the constants
-# of its modules, no others, and includes headers of components that it may use. fuge.h includes all of them.
+# of its modules, no others, and includes headers of components that it may use. Its structs have reserved members, as
+# doc/install.md promises. fuge.h includes all of them.
 cmake_minimum_required(VERSION 3.20)
 
 # result: what the files say, with ';' taken out
@@ -100,6 +101,14 @@ foreach(component IN LISTS components)
   find_numbers(in_header "${header}" "${of_constant}")
   find_numbers(in_fortran "${fortran}" "integer, parameter, public :: ${of_constant}")
   require_same(constants ${name} "${in_header}" "${in_fortran}")
+
+  string(REPLACE ";" " " text "${header}")
+  string(REGEX MATCHALL "struct fuge_[a-z_]+ {[^}]*}" structs "${text}")
+  foreach(struct IN LISTS structs)
+    if(NOT struct MATCHES " double reserved\\[")
+      message(SEND_ERROR "${name}: a struct without reserved members: ${struct}")
+    endif()
+  endforeach()
 
   find_includes(included "${header}")
   foreach(other IN LISTS included)

@@ -36,6 +36,8 @@ expect_mismatch(fuge_core.h "int fuge_reset(" "int fuge_restart(" "in fuge_core.
 expect_mismatch(fuge_core.h "int fuge_reset(fuge_solver *s);" "" "in its sources: fuge_reset")
 expect_mismatch(fuge_core.h "FUGE_VERSION \"" "FUGE_VERSION \"9." "the headers have #define FUGE_VERSION \"9\\.")
 expect_mismatch(fuge_mpi.h "int fuge_operator_rows(" "int fuge_operator_lines(" "in fuge_mpi.h: fuge_operator_lines")
+expect_mismatch(fuge_punches.h "  double reserved[8];\n} fuge_punch_report;" "} fuge_punch_report;"
+  "fuge_punches.h: a struct without reserved members: struct fuge_punch_report")
 
 # In the header of another component: a function and a constant that there are.
 expect_mismatch(fuge_files.h "int fuge_write_mesh(" "int fuge_field_largest(void);\nint fuge_write_mesh("

@@ -1,7 +1,7 @@
 # One version: cmake -D ROOT=. -P versions.cmake
 #
-# Each file that repeats the version, such as the manifests of fpm, has the one of include/fuge_core.h, and the
-# changelog the date of CITATION.cff.
+# Each file that repeats the version, such as the manifests of fpm, has the one of include/fuge_core.h, the changelog
+# the date of CITATION.cff, and all have its address of the repository, which script/release --address writes.
 cmake_minimum_required(VERSION 3.20)
 
 file(STRINGS "${ROOT}/include/fuge_core.h" line REGEX "define FUGE_VERSION ")
@@ -55,6 +55,17 @@ list(GET headings 0 heading)
 if(NOT heading STREQUAL "## ${version} (${date})")
   list(APPEND offences "CHANGELOG.md begins with another version or date than ${version} (${date}): ${heading}")
 endif()
+file(STRINGS "${ROOT}/CITATION.cff" address REGEX "^repository-code: ")
+string(REPLACE "repository-code: " "" address "${address}")
+foreach(file IN ITEMS pyproject.toml doc/install.md)
+  file(STRINGS "${ROOT}/${file}" lines REGEX "^[A-Z][a-z]+ = \"https?:|GIT_REPOSITORY ")
+  foreach(line IN LISTS lines)
+    string(FIND "${line}" "${address}" place)
+    if(place LESS 0 OR address STREQUAL "")
+      list(APPEND offences "${file} has another address than CITATION.cff: ${line}")
+    endif()
+  endforeach()
+endforeach()
 
 if(offences)
   list(JOIN offences "\n  " offences)

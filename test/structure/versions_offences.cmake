@@ -12,5 +12,7 @@ plant(src/attic/fpm.toml "name = \"fuge_attic\"\n" "src/attic/fpm.toml gives no 
 plant(CITATION.cff "version: none\n" "CITATION.cff has not version [0-9.]+: version: none\n")
 plant(packages/spack/packages/fuge/package.py "# fuge@9.9.9\n" "package.py has not version [0-9.]+: # fuge@9.9.9\n")
 plant(doc/mpi.md "find_package(fuge 9.9)\n" "doc/mpi.md has not version [0-9.]+: find_package.fuge 9.9\n")
+plant(pyproject.toml "Issues = \"https://elsewhere/issues\"\n"
+  "pyproject.toml has another address than CITATION.cff: Issues")
 plant(CHANGELOG.md "# Changelog\n\n## 9.9.9\n" "CHANGELOG.md begins with another version or date .*: ## 9.9.9\n")
 expect_offences(versions.cmake -DROOT=${SCRATCH})

@@ -25,6 +25,7 @@ module fuge_c_field
   type, bind(c) :: c_interface_stress
     real(c_double) :: depth, tension_above, tension_below, shear, opening
     integer(c_int) :: cell_above, cell_below, cell_of_shear, cell_of_opening
+    real(c_double) :: reserved(5)
   end type c_interface_stress
 
 contains
@@ -248,7 +249,7 @@ contains
         associate (f => found(k))
           peaks(k) = c_interface_stress(f%depth, f%tension_above, f%tension_below, f%shear, f%opening, &
                                         from_one(f%cell_above), from_one(f%cell_below), from_one(f%cell_of_shear), &
-                                        from_one(f%cell_of_opening))
+                                        from_one(f%cell_of_opening), 0.0_c_double)
         end associate
       end do
     end if

@@ -36,13 +36,14 @@ module fuge_point_space
       real(dp), intent(inout), contiguous :: values(:)
     end subroutine combine
 
-    !> Send `to(r)` values to rank r, and receive `from(r)` from it: those for and from rank 0 come first.
+    !> Send `to(r)` values to rank r, and receive `from(r)` from it: those for and from rank 0 come first. Messages may
+    !> be under way until it ends.
     subroutine exchange_values(self, to, sent, from, received)
       import :: rank_group, dp
       class(rank_group), intent(in) :: self
       integer, intent(in) :: to(0:), from(0:)
-      real(dp), intent(in), contiguous :: sent(:)
-      real(dp), intent(inout), contiguous :: received(:)
+      real(dp), intent(in), contiguous, asynchronous :: sent(:)
+      real(dp), intent(inout), contiguous, asynchronous :: received(:)
     end subroutine exchange_values
 
     !> If `info` is an error on any rank, give all ranks that of the lowest of them; the message names it, unless all

@@ -54,7 +54,7 @@ contains
 
     if (all(options%method /= [FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET, FUGE_ITERATIVE])) then
       call report(info, FUGE_ERR_OPTION, 'method = '//text(options%method) &
-        //' is not an engine: use FUGE_AUTO, FUGE_TABLEAU, FUGE_ACTIVE_SET or FUGE_ITERATIVE')
+        //' is not an engine: use FUGE_AUTO (0), FUGE_TABLEAU (1), FUGE_ACTIVE_SET (2) or FUGE_ITERATIVE (3)')
     else if (all(options%pivot_rule /= [FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE, FUGE_GREATEST_DECREASE])) then
       call report(info, FUGE_ERR_OPTION, 'pivot_rule = '//text(options%pivot_rule) &
         //' is unknown: use FUGE_PAPER_RULE, FUGE_MOST_NEGATIVE or FUGE_GREATEST_DECREASE')

@@ -426,6 +426,11 @@ contains
     if (allocated(problem%prescribed)) then
       if (all(problem%prescribed)) return
     end if
+    if (.not. allocated(problem%resultant)) then
+      call report(info, FUGE_ERR_SIZE, 'resultant is not allocated: it needs '//text(m)//' value(s), the load in ' &
+                  //'each motion; where bodies are held instead, set prescribed to true and motion to 0')
+      return
+    end if
     call check_length(problem%resultant, m, 'resultant', info)
     if (info%failed()) return
     if (problem%has_one_load()) then

@@ -74,9 +74,9 @@ contains
 
     if (.not. abs(above - below) > 0.0_dp) return
     if (abs(above - below) <= SYMMETRY_TOLERANCE*sqrt(abs(diagonal_i))*sqrt(abs(diagonal_j))) return
-    call report(info, FUGE_ERR_NOT_SYMMETRIC, entry_name(i, j)//' = '//text(above)//' and '//entry_name(j, i)//' = ' &
-                //text(below)//' differ: a stiffness matrix is symmetric; if that is rounding, pass (K + ' &
-                //'K^T)/2')
+    call report(info, FUGE_ERR_NOT_SYMMETRIC, entry_name(i, j)//' = '//text(above)//' and '//entry_name(j, i) &
+                //' differ by '//text(abs(above - below))//': a stiffness matrix is symmetric; if that is rounding, ' &
+                //'pass (K + K^T)/2')
   end subroutine check_pair
 
 end module fuge_stiffness_check

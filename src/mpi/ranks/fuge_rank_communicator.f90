@@ -4,10 +4,11 @@ module fuge_rank_communicator
   use fuge_number_text, only: text
   use fuge_point_space, only: rank_group
   use fuge_status, only: composed_message, fuge_info, report, FUGE_ERR_CALL_ORDER, FUGE_MESSAGE_LENGTH
-  use mpi_f08, only: MPI_Allreduce, MPI_Alltoallv, MPI_Bcast, MPI_Comm, MPI_Comm_dup, MPI_Comm_free, MPI_Comm_rank, &
-    MPI_Comm_size, MPI_Comm_split, MPI_Comm_split_type, MPI_Finalized, MPI_Initialized, operator(/=), MPI_CHARACTER, &
-    MPI_COMM_NULL, MPI_COMM_TYPE_SHARED, MPI_DOUBLE_PRECISION, MPI_IN_PLACE, MPI_INFO_NULL, MPI_INTEGER, MPI_LAND, &
-    MPI_LOGICAL, MPI_MAX, MPI_MIN, MPI_SUM, MPI_UNDEFINED
+  use mpi_f08, only: MPI_Allreduce, MPI_Bcast, MPI_Comm, MPI_Comm_dup, MPI_Comm_free, MPI_Comm_rank, MPI_Comm_size, &
+    MPI_Comm_split, MPI_Comm_split_type, MPI_Finalized, MPI_Initialized, MPI_Irecv, MPI_Isend, MPI_Request, &
+    MPI_Waitall, operator(/=), MPI_CHARACTER, MPI_COMM_NULL, MPI_COMM_TYPE_SHARED, MPI_DOUBLE_PRECISION, &
+    MPI_IN_PLACE, MPI_INFO_NULL, MPI_INTEGER, MPI_LAND, MPI_LOGICAL, MPI_MAX, MPI_MIN, MPI_STATUSES_IGNORE, MPI_SUM, &
+    MPI_UNDEFINED
   implicit none
   private
 
@@ -138,22 +139,31 @@ contains
     call MPI_Allreduce(MPI_IN_PLACE, values, size(values), MPI_DOUBLE_PRECISION, MPI_MAX, self%comm())
   end subroutine raise
 
+  !> Messages between the ranks that have something for each other only.
   subroutine exchange(self, to, sent, from, received)
     class(rank_communicator), intent(in) :: self
     integer, intent(in) :: to(0:), from(0:)
-    real(dp), intent(in), contiguous :: sent(:)
-    real(dp), intent(inout), contiguous :: received(:)
-    integer, dimension(0:self%size - 1) :: to_begin, from_begin
-    integer :: r
+    real(dp), intent(in), contiguous, asynchronous :: sent(:)
+    real(dp), intent(inout), contiguous, asynchronous :: received(:)
+    type(MPI_Request) :: requests(2*self%size)
+    integer :: begin, n, r
 
-    to_begin(0) = 0
-    from_begin(0) = 0
-    do r = 1, self%size - 1
-      to_begin(r) = to_begin(r - 1) + to(r - 1)
-      from_begin(r) = from_begin(r - 1) + from(r - 1)
+    n = 0
+    begin = 1
+    do r = 0, self%size - 1
+      if (from(r) < 1) cycle
+      n = n + 1
+      call MPI_Irecv(received(begin), from(r), MPI_DOUBLE_PRECISION, r, 0, self%comm(), requests(n))
+      begin = begin + from(r)
     end do
-    call MPI_Alltoallv(sent, to, to_begin, MPI_DOUBLE_PRECISION, received, from, from_begin, MPI_DOUBLE_PRECISION, &
-                       self%comm())
+    begin = 1
+    do r = 0, self%size - 1
+      if (to(r) < 1) cycle
+      n = n + 1
+      call MPI_Isend(sent(begin), to(r), MPI_DOUBLE_PRECISION, r, 0, self%comm(), requests(n))
+      begin = begin + to(r)
+    end do
+    call MPI_Waitall(n, requests, MPI_STATUSES_IGNORE)
   end subroutine exchange
 
   !> One small message where nothing is wrong.

@@ -201,8 +201,8 @@ contains
   !> As `multiply`, in single precision; only where `has_single`.
   subroutine multiply_single(self, force, displacement, status)
     class(slab_products), intent(in) :: self
-    real(sp), intent(in), contiguous :: force(:)
-    real(sp), intent(inout), contiguous :: displacement(:)
+    real(sp), intent(in) :: force(:)
+    real(sp), intent(inout) :: displacement(:)
     integer, intent(out) :: status
 
     status = FUGE_DONE
@@ -231,8 +231,8 @@ contains
   !> As `precondition`, in single precision; only where `has_single`.
   subroutine precondition_single(self, displacement, force, status)
     class(slab_products), intent(in) :: self
-    real(sp), intent(in), contiguous :: displacement(:)
-    real(sp), intent(inout), contiguous :: force(:)
+    real(sp), intent(in) :: displacement(:)
+    real(sp), intent(inout) :: force(:)
     integer, intent(out) :: status
 
     status = FUGE_DONE

@@ -144,7 +144,7 @@ static void test_half_space(void) {
 static void test_interface(void) {
   const int middle = CELLS / 2;
   double force[CELLS];
-  fuge_interface_stress peaks[2] = {{0}};
+  fuge_interface_stress peaks[2] = {{0}, {.reserved = {SENTINEL, SENTINEL, SENTINEL, SENTINEL, SENTINEL}}};
   int interfaces = -1;
   values v;
   press(force);
@@ -154,6 +154,7 @@ static void test_interface(void) {
   CHECK_DONE(fuge_field_interfaces(field, 1, &interfaces, peaks, NULL, 0));
   CHECK(peaks[0].shear == 0.0 && peaks[0].tension_above != 0.0 && peaks[1].depth == 0.0);
   CHECK_DONE(fuge_field_interfaces(field, 2, &interfaces, peaks, NULL, 0));
+  for (int k = 0; k < 5; k++) CHECK_NEAR(peaks[1].reserved[k], 0.0, 0.0);
   ask(field, CELLS, 2, INTERFACE, BELOW, &v);
   CHECK_NEAR(peaks[1].depth, 0.3, 0.0);
   CHECK_INT(peaks[1].cell_above, middle);

@@ -7,7 +7,7 @@ enum { D = 2, CASES = 3 };
 static const double K[D * D] = {100.0, 0.0, 0.0, 100.0};
 static const int NODE[D] = {0, 1}, ANCHOR[D] = {-1, -1};
 static const double AT[D] = {0.0, 0.0}, AWAY[D] = {3.0, 4.0};
-static const fuge_member CABLE = {FUGE_TENSION_ONLY, 1.0, 500.0, 0.0, 0.0};
+static const fuge_member CABLE = {FUGE_TENSION_ONLY, 1.0, 500.0, 0.0, 0.0, {0.0}};
 
 /* Body, links, operator and solver of one problem. */
 struct structure {
@@ -146,6 +146,7 @@ static struct structure floating(void) {
   fuge_default_link_law(&law);
   CHECK(isinf(law.play) && isinf(law.limit) && isinf(law.limit_upper));
   CHECK_NEAR(law.compliance, 0.0, 0.0);
+  for (int k = 0; k < 7; k++) CHECK_NEAR(law.reserved[k], 0.0, 0.0);
   law.gap = 0.5;
   CHECK_DONE(fuge_links_add_support(s.links, 1, &left, &along, &law, "stop"));
   condense(&s);

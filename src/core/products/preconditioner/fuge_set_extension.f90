@@ -20,6 +20,7 @@ module fuge_set_extension
   use fuge_grid_transfer, only: coarser_cells
   use fuge_kinds, only: dp, sp
   use fuge_operator_type, only: fuge_operator
+  use fuge_row_halo, only: row_halo
   use fuge_shared_rows, only: shared_rows
   use fuge_status, only: fuge_info, require_memory
   use fuge_threads, only: run_in_parts, share, threads_here, work_in_parts
@@ -50,6 +51,10 @@ module fuge_set_extension
     !> Who has which rows, and those that are here.
     type(shared_rows) :: rows = shared_rows()
     integer :: first = 1, last = 0
+    !> The rows beside, on coarser grids that ranks share.
+    type(row_halo) :: halo = row_halo()
+    !> For the sums over ranks, where they share the rows of the next finer grid but not of this one.
+    real(dp), allocatable :: sums(:)
     real(sp), allocatable :: cover(:, :)
     !> What is extended, and one over the cover of its finer cells: not on the finest grid.
     real(sp), allocatable :: values(:, :), inverse(:, :)
@@ -121,9 +126,8 @@ contains
       call point_to_level(self, l, pass)
       if (present(slope)) pass%cover_growth = growth_of(slope(min(l, size(slope)) - 1))
       call pass%go(sum_cover, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
-      call add_up(pass%fine, pass%coarse, pass%coarse%inverse, info)
-      if (.not. info%failed()) call fetch_halo(pass%coarse, pass%coarse%inverse, info)
-      if (info%failed()) return
+      call add_up(pass%fine, pass%coarse, pass%coarse%inverse)
+      call fetch_halo(pass%coarse, pass%coarse%inverse)
       call pass%go(cover_cells, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
     end do
     if (self%depth == 1) return
@@ -176,10 +180,14 @@ contains
         level%last = level%cells(2)
         halo = 0
         if (.not. level%rows%is_alone()) then
-          halo = merge(0, 1, l == 1)
           level%first = level%rows%first(rows%number())
           level%last = level%rows%first(rows%number() + 1) - 1
+          halo = merge(0, 1, l == 1)
+          if (l > 1) call level%halo%set(level%rows, stat)
+        else if (l > 1) then
+          if (.not. self%levels(l - 1)%rows%is_alone()) allocate (level%sums(product(level%cells)), stat=stat)
         end if
+        if (stat /= 0) cycle
         allocate (level%cover(level%cells(1), level%first - halo:level%last + halo), stat=stat)
         if (l == 1 .or. stat /= 0) cycle
         allocate (level%values(level%cells(1), level%first - halo:level%last + halo), &
@@ -203,103 +211,34 @@ contains
     level%rows%first = (fine%first + 2)/2
   end subroutine share_rows
 
-  !> Add up the rows of `values`, of the grid `coarse`, which each rank has found from its rows of `fine`. Error:
-  !> FUGE_ERR_MEMORY.
-  subroutine add_up(fine, coarse, values, info)
-    type(extension_level), intent(in) :: fine, coarse
-    real(sp), intent(inout), allocatable :: values(:, :)
-    type(fuge_info), intent(inout) :: info
+  !> Add up the rows of `values`, of the grid `coarse`, which each rank has found from its rows of `fine`.
+  subroutine add_up(fine, coarse, values)
+    type(extension_level), intent(in) :: fine
+    type(extension_level), intent(inout) :: coarse
+    real(sp), intent(inout), contiguous :: values(:, :)
+    integer :: j, n
 
     if (.not. coarse%rows%is_alone()) then
-      call collect_halo(coarse, coarse%first - 1, values, info)
-      if (.not. info%failed()) call collect_halo(coarse, coarse%last + 1, values, info)
+      call coarse%halo%collect(coarse%rows, coarse%first - 1, values)
     else if (.not. fine%rows%is_alone()) then
-      call add_all_rows(fine%rows, values, info)
+      n = size(values, 1)
+      do j = 1, size(values, 2)
+        coarse%sums(n*(j - 1) + 1:n*j) = real(values(:, j), dp)
+      end do
+      call fine%rows%add(coarse%sums)
+      do j = 1, size(values, 2)
+        values(:, j) = real(coarse%sums(n*(j - 1) + 1:n*j), sp)
+      end do
     end if
   end subroutine add_up
 
-  !> Add up all rows over the ranks. Error: FUGE_ERR_MEMORY.
-  subroutine add_all_rows(rows, values, info)
-    type(shared_rows), intent(in) :: rows
+  !> Copy the rows of the halo of `values` from the ranks that have them; nothing where all rows are here.
+  subroutine fetch_halo(level, values)
+    type(extension_level), intent(inout) :: level
     real(sp), intent(inout), contiguous :: values(:, :)
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: sums(:)
-    integer :: j, n, stat
 
-    allocate (sums(size(values)), stat=stat)
-    call require_memory(stat, 'the extension of a contact set of', size(values), 'coarser cells', info)
-    call rows%agree(info)
-    if (info%failed()) return
-    n = size(values, 1)
-    do j = 1, size(values, 2)
-      sums(n*(j - 1) + 1:n*j) = real(values(:, j), dp)
-    end do
-    call rows%add(sums)
-    do j = 1, size(values, 2)
-      values(:, j) = real(sums(n*(j - 1) + 1:n*j), sp)
-    end do
-  end subroutine add_all_rows
-
-  !> Add row number `row` of the halo of each rank to that of the rank that has it. Error: FUGE_ERR_MEMORY.
-  subroutine collect_halo(level, row, values, info)
-    type(extension_level), intent(in) :: level
-    integer, intent(in) :: row
-    real(sp), intent(inout), allocatable :: values(:, :)
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: sums(:)
-    integer :: j, n
-    integer :: wanted(level%rows%members())
-
-    n = level%cells(1)
-    wanted = halo_rows(level, row)
-    call level%rows%collect(n, real(values(:, row), dp), wanted, wanted, sums, info)
-    if (info%failed()) return
-    do j = level%first, level%last
-      values(:, j) = values(:, j) + real(sums(n*(j - level%first) + 1:n*(j - level%first + 1)), sp)
-    end do
-  end subroutine collect_halo
-
-  !> Copy the rows of the halo from the ranks that have them; nothing where all rows are here. Error: FUGE_ERR_MEMORY.
-  subroutine fetch_halo(level, values, info)
-    type(extension_level), intent(in) :: level
-    real(sp), intent(inout), allocatable :: values(:, :)
-    type(fuge_info), intent(inout) :: info
-    real(dp), allocatable :: own(:), row(:)
-    integer :: wanted(level%rows%members())
-    integer :: j, n, side, stat
-
-    if (level%rows%is_alone()) return
-    n = level%cells(1)
-    allocate (own(n*(level%last - level%first + 1)), stat=stat)
-    call require_memory(stat, 'the extension of a contact set of', size(values), 'coarser cells', info)
-    call level%rows%agree(info)
-    if (info%failed()) return
-    do j = level%first, level%last
-      own(n*(j - level%first) + 1:n*(j - level%first + 1)) = real(values(:, j), dp)
-    end do
-    do side = level%first - 1, level%last + 1, level%last - level%first + 2
-      wanted = halo_rows(level, side)
-      call level%rows%fetch(n, own, wanted, wanted, row, info)
-      if (info%failed()) return
-      values(:, side) = real(row, sp)
-    end do
+    if (.not. level%rows%is_alone()) call level%halo%fetch(level%rows, level%first - 1, values)
   end subroutine fetch_halo
-
-  !> Which row of the grid that of the halo of each rank is, before its own rows or after them as `row` of this rank.
-  pure function halo_rows(level, row) result(rows)
-    type(extension_level), intent(in) :: level
-    integer, intent(in) :: row
-    integer :: rows(level%rows%members())
-    integer :: ranks
-
-    ranks = level%rows%members()
-    if (row < level%first) then
-      rows = level%rows%first(0:ranks - 1) - 1
-    else
-      rows = level%rows%first(1:ranks)
-    end if
-    rows = modulo(rows - 1, level%cells(2)) + 1
-  end function halo_rows
 
   !> The `cover` (n) of the points: 1 on the set, 0 off it.
   subroutine point_to_cover(self, cover)
@@ -310,47 +249,41 @@ contains
   end subroutine point_to_cover
 
   !> E: give the `values` (n) of the set to open points too, whose own values do not count. On no more cells than the
-  !> coarsest grid has they stay as they are, and are to be zero. Error: FUGE_ERR_MEMORY, of ranks only.
-  subroutine extend(self, values, info)
+  !> coarsest grid has they stay as they are, and are to be zero.
+  subroutine extend(self, values)
     class(set_extension), intent(inout), target :: self
     real(sp), intent(inout), contiguous, target :: values(:)
-    type(fuge_info), intent(inout) :: info
     type(row_pass) :: pass
     integer :: l
 
     do l = 1, self%depth - 1
       call point_to(self, l, values, pass)
       call pass%go(average_cells, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
-      call add_up(pass%fine, pass%coarse, pass%coarse%values, info)
-      if (info%failed()) return
+      call add_up(pass%fine, pass%coarse, pass%coarse%values)
     end do
     do l = self%depth - 1, 1, -1
       call point_to(self, l, values, pass)
-      call fetch_halo(pass%coarse, pass%coarse%values, info)
-      if (info%failed()) return
+      call fetch_halo(pass%coarse, pass%coarse%values)
       call pass%go(fill_cells, pass%fine%first, pass%fine%last)
     end do
   end subroutine extend
 
   !> E^T: distribute the `values` (n) of open points to the set; these are zero then. On no more
-  !> cells than the coarsest grid has all stay as they are. Error: FUGE_ERR_MEMORY, of ranks only.
-  subroutine collect(self, values, info)
+  !> cells than the coarsest grid has all stay as they are.
+  subroutine collect(self, values)
     class(set_extension), intent(inout), target :: self
     real(sp), intent(inout), contiguous, target :: values(:)
-    type(fuge_info), intent(inout) :: info
     type(row_pass) :: pass
     integer :: l
 
     do l = 1, self%depth - 1
       call point_to(self, l, values, pass)
       call pass%go(collect_cells, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
-      call add_up(pass%fine, pass%coarse, pass%coarse%values, info)
-      if (info%failed()) return
+      call add_up(pass%fine, pass%coarse, pass%coarse%values)
     end do
     do l = self%depth - 1, 1, -1
       call point_to(self, l, values, pass)
-      call fetch_halo(pass%coarse, pass%coarse%values, info)
-      if (info%failed()) return
+      call fetch_halo(pass%coarse, pass%coarse%values)
       call pass%go(spread_cells, pass%fine%first, pass%fine%last)
     end do
   end subroutine collect

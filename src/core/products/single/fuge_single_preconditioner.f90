@@ -99,10 +99,10 @@ contains
     do j = 1, state%columns
       pass%column = j
       call pass%go(mark_contact, 0, 0)
-      call self%extension%extend(state%direction, info)
+      call self%extension%extend(state%direction)
       call precondition_single(operator, state%direction, state%images(:, j), info)
       if (info%failed()) return
-      call self%extension%collect(state%images(:, j), info)
+      call self%extension%collect(state%images(:, j))
     end do
     self%changed = 0
     self%motions = state%motions
@@ -191,10 +191,10 @@ contains
       pass%shift = resultants(1)
       call pass%go(center_residuals, 0, 0)
     end if
-    call self%extension%extend(state%residual, info)
+    call self%extension%extend(state%residual)
     call precondition_single(operator, state%residual, state%work, info)
     if (info%failed()) return
-    call self%extension%collect(state%work, info)
+    call self%extension%collect(state%work)
     call pass%go(sum_energy, 0, 1 + state%columns)
     energy = pass%total(1)
     if (m == 0) return
