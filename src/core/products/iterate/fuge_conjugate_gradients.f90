@@ -2,10 +2,13 @@
 module fuge_conjugate_gradients
   use fuge_kinds, only: dp
   use fuge_lanczos_values, only: lanczos_values
+  use fuge_point_space, only: point_space
+  use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
-  !> Vectors and numbers of conjugate gradients; scaled as forces and gaps of the scene are.
+  !> Vectors and numbers of conjugate gradients; scaled as forces and gaps of the scene are. There are no vectors before
+  !> `prepare`: a search in single precision, which mostly is the only one, has its own.
   type, public :: conjugate_gradients
     !> Gap plus displacement less motion, and the search direction (force), (n); both are zero off
     !> the contact set.
@@ -31,10 +34,28 @@ module fuge_conjugate_gradients
     !> The largest displacement by forces of size 1, as far as it has been needed; 0 before; length per force.
     real(dp) :: softness = 0.0_dp
   contains
+    procedure :: prepare
     procedure :: note_least_compliance
   end type conjugate_gradients
 
 contains
+
+  !> Allocate the vectors for `n` points here, unless they are there, with `start` where forces `may_grow` without bound.
+  !> Error, on any rank of `space`: FUGE_ERR_MEMORY.
+  subroutine prepare(self, n, may_grow, space, info)
+    class(conjugate_gradients), intent(inout) :: self
+    integer, intent(in) :: n
+    logical, intent(in) :: may_grow
+    type(point_space), intent(in) :: space
+    type(fuge_info), intent(inout) :: info
+    integer :: stat
+
+    if (allocated(self%work)) return
+    allocate (self%residual(n), self%direction(n), self%work(n), stat=stat)
+    if (stat == 0 .and. may_grow) allocate (self%start(n), stat=stat)
+    call require_memory(stat, 'the work space of', n, 'points', info)
+    call space%agree(info)
+  end subroutine prepare
 
   !> Keep the least compliance that the last run has found on this set.
   subroutine note_least_compliance(self)

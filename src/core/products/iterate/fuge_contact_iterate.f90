@@ -26,7 +26,7 @@ module fuge_contact_iterate
 
 contains
 
-  !> Allocate all arrays for the points of a scene and set the forces to start from: `start` (n), scaled as in
+  !> Allocate the arrays for the points of a scene and set the forces to start from: `start` (n), scaled as in
   !> contact_iterate, if there are any; else equal forces, or none if the motion is prescribed, or the least forces
   !> that have the resultants. Errors: FUGE_ERR_MEMORY.
   subroutine start_iterate(iterate, scene, start, info)
@@ -37,15 +37,18 @@ contains
     integer :: n, stat
 
     n = size(scene%gap)
-    allocate (iterate%force(n), iterate%displacement(n), iterate%contact(n), iterate%gradients%residual(n), &
-              iterate%gradients%direction(n), iterate%gradients%work(n), stat=stat)
+    allocate (iterate%force(n), iterate%displacement(n), iterate%contact(n), stat=stat)
     if (stat == 0 .and. allocated(scene%play)) allocate (iterate%at_upper(n), stat=stat)
     if (stat == 0 .and. scene%has_limits()) allocate (iterate%limited(n), stat=stat)
-    if (stat == 0 .and. scene%prescribed) allocate (iterate%gradients%start(n), stat=stat)
     if (stat == 0 .and. allocated(scene%modes)) allocate (iterate%rigid_motion(size(scene%load)), stat=stat)
     call require_memory(stat, 'the work space of', n, 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
+    ! Feasible forces of these scenes need room in any search.
+    if (allocated(scene%modes) .or. allocated(scene%play) .or. scene%has_limits()) then
+      call iterate%gradients%prepare(n, scene%prescribed, scene%rows%point_space, info)
+      if (info%failed()) return
+    end if
     iterate%segments%space = scene%rows%point_space
     if (allocated(iterate%at_upper)) iterate%at_upper = .false.
     if (allocated(iterate%limited)) then

@@ -25,7 +25,8 @@ contains
     type(contact_iterate), intent(inout) :: iterate
     type(fuge_info), intent(inout) :: info
 
-    call iterate%segments%find(iterate%contact, info)
+    call iterate%gradients%prepare(size(scene%gap), scene%prescribed, scene%rows%point_space, info)
+    if (.not. info%failed()) call iterate%segments%find(iterate%contact, info)
     if (info%failed()) return
     call set_residual(scene, iterate)
     iterate%motion = 0.0_dp
