@@ -18,6 +18,7 @@ TWO = "--mesh lower.inp --stiffness lower.sti --mesh upper.inp --stiffness upper
 PAIR = " --pair upper.FACE:lower.FACE"
 HELD = " --support lower.BOTTOM:y --support lower.LEFT:x --support upper.LEFT:x"
 UPPER = "--mesh upper.inp --stiffness upper.sti --support upper.LEFT:x"
+PARTS = TWO.replace("upper.sti", "parts.sti")
 CORNER = f"{TWO}{HELD} --support upper.LEFT:y --load upper.60:y=-3"
 SPACE = f"{TWO}{PAIR} --support lower.BOTTOM:z"
 
@@ -262,6 +263,7 @@ ALONE = [
     (f"--mesh lower.inp --stiffness upper.sti {UPPER}{PAIR}", 'upper.sti" has no row of a node of "lower.inp"', INPUT),
     (f"--mesh lower.inp --stiffness beam.mtx{PAIR}", "rows without names: .* by --rows", INPUT),
     (f"--mesh lower.inp --stiffness lower.sti --rows twice.dof{PAIR}", "node 997, direction 2 is the name of", INPUT),
+    (f"{PARTS}{PAIR}{HELD} --load upper.TOP:y=9", "body upper, displacement along y", UNSOLVED),
 ]
 
 # Tables and input files of loads, the line, and the message; of supports where they begin with *B or have two columns.
@@ -274,7 +276,7 @@ FILES = [
     ("BOTOM,y,1\n", 'line 1: body upper has no set of nodes "BOTOM"'),
     ("*CLOAD\nTOP,11,1\n", 'line 2: "11" is no axis: 1 to 6'),
     ("*CLOAD, AMPLITUDE=A\nTOP,2,1\n", 'line 1: \\*CLOAD: the parameter "AMPLITUDE" is not read'),
-    ("*CLOAD\nTOP,2,1\n*DLOAD\n101,P1,1\n", "line 3: \\*DLOAD is not read"),
+    ("*CLOAD\nTOP,2,1\n*DLOAD\n101,P1,1\n", "line 3: \\*DLOAD is not read here: give a uniform pressure by --pressure"),
     ("*STEP\n*CLOAD\nTOP,2,1\n*END STEP\n*STEP\n*CLOAD\nTOP,2,1\n", "line 6: \\*CLOAD of another load case follows"),
     ("*BOUNDARY\nTOP,2,1\n", "line 2: the last direction is less than the first one"),
     ("*BOUNDARY\nTOP,PINNED\n", 'line 2: "PINNED" is no axis: 1 to 6'),
@@ -287,6 +289,10 @@ class Refusals(MeshesCase):
         rows = Path("lower.dof").read_text().splitlines()
         Path("twice.dof").write_text("\n".join([rows[1], *rows[1:]]) + "\n")
         shutil.copy(DATA / "mtx" / "beam_stiffness.mtx", "beam.mtx")
+        # Another part of the upper body, which does not move with it.
+        rows = Path("upper.dof").read_text().splitlines()
+        Path("parts.dof").write_text("\n".join([*rows, "7001.2"]))
+        Path("parts.sti").write_text(f"{Path('upper.sti').read_text()}\n{len(rows) + 1} {len(rows) + 1} 5.\n")
         for line, message, code in [(f"{TWO} {line}", *rest) for line, *rest in WRONG] + ALONE:
             with self.subTest(line=line):
                 self.assert_refused(line.split(), message, code)
