@@ -166,7 +166,8 @@ class Solutions(MeshesCase):
     def test_rings(self):
         Path("ring.inp").write_text(Path("upper.inp").read_text().replace("CPS4", "CAX4"))
         command = "--mesh lower.inp --stiffness lower.sti --body upper --mesh ring.inp --stiffness upper.sti"
-        table, comments = self.solve(CORNER.replace(TWO, command) + PAIR + " --clearance 0.25")
+        note = "fuge: note: .upper.sti. is multiplied by 180: .*\n"
+        table, comments = self.solve(CORNER.replace(TWO, command) + PAIR + " --clearance 0.25", note)
         np.testing.assert_allclose(table["area"].sum(), np.pi * 36.0)
         inside = (table["x"] > 0.0) & (table["x"] < 6.0)
         np.testing.assert_allclose(table["area"][inside], 2.0 * np.pi * table["x"][inside] * 1.5)
@@ -176,6 +177,17 @@ class Solutions(MeshesCase):
         table, _ = self.solve(f"{end} --support lower.BOTTOM:y --support lower.LEFT:x")
         np.testing.assert_allclose(table["area"], np.pi * 36.0 * np.array([1, 3, 2]) / 6.0)
         self.assertGreater(table["force"].min(), 0.0)
+
+    def test_ring_of_calculix_is_whole(self):
+        Path("ring.inp").write_text(Path("lower.inp").read_text().replace("CPS4", "CAX4"))
+        shutil.copy("lower.sti", "whole.txt")
+        pressed = "--mesh washer.inp --pair END:FACE --clearance -0.1 --support BOTTOM:y --support LEFT:x"
+        forces = [
+            self.solve(f"--mesh ring.inp --stiffness {path} {pressed}", says)[0]["force"]
+            for path, says in (("lower.sti", "fuge: note: .*\n"), ("whole.txt --rows lower.dof", ""))
+        ]
+        np.testing.assert_allclose(forces[0], 180.0 * forces[1])
+        self.assertGreater(forces[1].min(), 0.0)
 
     def test_options_on_a_ridge(self):
         line = f"--mesh ridge.inp {UPPER} --loads loads.csv --pair "
