@@ -158,6 +158,7 @@ class ResolvedContact:
             f"load {self.load:.6g}",
             f"approach {self.approach:.6g}",
             f"largest pressure {self.largest:.6g}",
+            *(["reaches the rim"] if any(self.at_rim) else []),
             f"error {self.pressure_error:.1e}",
             f"{self.levels[-1].seconds:.2g} s",
         ]
