@@ -80,7 +80,8 @@ class Level:
 class ResolvedContact:
     """A contact to a wanted error, on cells; made by :func:`solve_line` and :func:`solve_area`.
 
-    Errors are estimates, those of the discretisation, not of the model.
+    Errors are estimates, those of the discretisation, not of the model. Its cells and forces make a field of stresses:
+    :meth:`Field.halfplane` of a line, :meth:`Field.halfspace_grid` of an area.
 
     Attributes
     ----------
@@ -157,6 +158,7 @@ class ResolvedContact:
             f"load {self.load:.6g}",
             f"approach {self.approach:.6g}",
             f"largest pressure {self.largest:.6g}",
+            *(["reaches the rim"] if any(self.at_rim) else []),
             f"error {self.pressure_error:.1e}",
             f"{self.levels[-1].seconds:.2g} s",
         ]

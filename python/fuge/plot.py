@@ -51,7 +51,9 @@ _UNEQUAL = 1e-3
 def _check(name: str, value: Any, *kinds: type) -> None:
     if not isinstance(value, kinds):
         wanted = " or a ".join(kind.__name__ for kind in kinds)
-        raise TypeError(f"fuge.plot.{name} draws a {wanted}, not {type(value).__name__}")
+        arrays = ": draw its arrays x, y, pressure and gap, or by fuge.plot.stress the fuge.Field of its cells"
+        instead = arrays if isinstance(value, ResolvedContact) else ""
+        raise TypeError(f"fuge.plot.{name} draws a {wanted}, not {type(value).__name__}{instead}")
 
 
 def _new_axes(ax: Axes | None) -> Axes:

@@ -366,6 +366,9 @@ class Results(unittest.TestCase):
             self.assertRegex(text, r"^<ResolvedContact: \d.* cells.*, load .*, error \d\.\de[-+]\d\d, .* s>$")
         self.assertRegex(repr(self.area), rf"{self.area.x.size} x {self.area.y.size} cells, by a series")
         self.assertIn(f"load {LOAD:.6g}", repr(self.line))
+        self.assertNotIn("rim", repr(self.line))
+        narrow = fuge.solve_line(parabola, (-0.1, 0.1), e_star=1.0, load=LOAD)
+        self.assertIn("reaches the rim", repr(narrow))
 
     def test_pickles(self):
         for contact in (self.line, self.area):

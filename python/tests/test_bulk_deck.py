@@ -222,7 +222,7 @@ class Decks(InFolder):
             ("PARAM,INREL,-2", "inertia relief is not read"),
             ("PARAM,NOSUCH,1", "the parameter NOSUCH could change the answer"),
             ("BEGIN SUPER=1", "line 6: the name"),
-            ("include no_such", '"no_such" cannot be opened'),
+            ("include no_such", 'line 6: the included file "no_such" cannot be opened'),
             ("include 'no_such", "line 6: INCLUDE needs a path in quotes"),
             ("include 'deck'", "line 6: more than 16 files include each other"),
             # Bulk data alone: all sets of loads, and all of supports, must belong to one.

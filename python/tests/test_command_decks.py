@@ -77,6 +77,13 @@ class Decks(CommandCase):
         pattern = "# case 4: pressed\n.*# case 5: lifted\n.*CGAP 55,15,5, *2[.]9531.*,contact, .*,contact, "
         self.assertTrue(re.search(pattern, found, re.DOTALL), found)
 
+    def test_warnings_of_decks(self):
+        Path("large.inp").write_text((CANTILEVER / "beam.inp").read_text().replace("*STEP", "*STEP, NLGEOM", 1))
+        for option, code in (("", 0), (" --strict", 5)):
+            found, _, errors = self.run_command(*words(f"--deck large.inp {STI}{option}"))
+            self.assertEqual(found, code, errors)
+            self.assertRegex(errors, "^fuge: warning: .large.inp., line 3[0-9]: NLGEOM has no effect")
+
     def test_failed_cases(self):
         done = r"# case 2: SUBCASE 2\n# status: 0, done.*CGAP 7,15,5,"
         held = rf"# case 1: SUBCASE 1\n# status: 0, done.*{done} *0[.]0+E.000, *7[.]50+E-001,open"

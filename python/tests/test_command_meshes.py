@@ -18,6 +18,7 @@ TWO = "--mesh lower.inp --stiffness lower.sti --mesh upper.inp --stiffness upper
 PAIR = " --pair upper.FACE:lower.FACE"
 HELD = " --support lower.BOTTOM:y --support lower.LEFT:x --support upper.LEFT:x"
 UPPER = "--mesh upper.inp --stiffness upper.sti --support upper.LEFT:x"
+PARTS = TWO.replace("upper.sti", "parts.sti")
 CORNER = f"{TWO}{HELD} --support upper.LEFT:y --load upper.60:y=-3"
 SPACE = f"{TWO}{PAIR} --support lower.BOTTOM:z"
 
@@ -165,7 +166,8 @@ class Solutions(MeshesCase):
     def test_rings(self):
         Path("ring.inp").write_text(Path("upper.inp").read_text().replace("CPS4", "CAX4"))
         command = "--mesh lower.inp --stiffness lower.sti --body upper --mesh ring.inp --stiffness upper.sti"
-        table, comments = self.solve(CORNER.replace(TWO, command) + PAIR + " --clearance 0.25")
+        note = "fuge: note: .upper.sti. is multiplied by 180: .*\n"
+        table, comments = self.solve(CORNER.replace(TWO, command) + PAIR + " --clearance 0.25", note)
         np.testing.assert_allclose(table["area"].sum(), np.pi * 36.0)
         inside = (table["x"] > 0.0) & (table["x"] < 6.0)
         np.testing.assert_allclose(table["area"][inside], 2.0 * np.pi * table["x"][inside] * 1.5)
@@ -175,6 +177,17 @@ class Solutions(MeshesCase):
         table, _ = self.solve(f"{end} --support lower.BOTTOM:y --support lower.LEFT:x")
         np.testing.assert_allclose(table["area"], np.pi * 36.0 * np.array([1, 3, 2]) / 6.0)
         self.assertGreater(table["force"].min(), 0.0)
+
+    def test_ring_of_calculix_is_whole(self):
+        Path("ring.inp").write_text(Path("lower.inp").read_text().replace("CPS4", "CAX4"))
+        shutil.copy("lower.sti", "whole.txt")
+        pressed = "--mesh washer.inp --pair END:FACE --clearance -0.1 --support BOTTOM:y --support LEFT:x"
+        forces = [
+            self.solve(f"--mesh ring.inp --stiffness {path} {pressed}", says)[0]["force"]
+            for path, says in (("lower.sti", "fuge: note: .*\n"), ("whole.txt --rows lower.dof", ""))
+        ]
+        np.testing.assert_allclose(forces[0], 180.0 * forces[1])
+        self.assertGreater(forces[1].min(), 0.0)
 
     def test_options_on_a_ridge(self):
         line = f"--mesh ridge.inp {UPPER} --loads loads.csv --pair "
@@ -262,6 +275,7 @@ ALONE = [
     (f"--mesh lower.inp --stiffness upper.sti {UPPER}{PAIR}", 'upper.sti" has no row of a node of "lower.inp"', INPUT),
     (f"--mesh lower.inp --stiffness beam.mtx{PAIR}", "rows without names: .* by --rows", INPUT),
     (f"--mesh lower.inp --stiffness lower.sti --rows twice.dof{PAIR}", "node 997, direction 2 is the name of", INPUT),
+    (f"{PARTS}{PAIR}{HELD} --load upper.TOP:y=9", "body upper, displacement along y", UNSOLVED),
 ]
 
 # Tables and input files of loads, the line, and the message; of supports where they begin with *B or have two columns.
@@ -274,7 +288,7 @@ FILES = [
     ("BOTOM,y,1\n", 'line 1: body upper has no set of nodes "BOTOM"'),
     ("*CLOAD\nTOP,11,1\n", 'line 2: "11" is no axis: 1 to 6'),
     ("*CLOAD, AMPLITUDE=A\nTOP,2,1\n", 'line 1: \\*CLOAD: the parameter "AMPLITUDE" is not read'),
-    ("*CLOAD\nTOP,2,1\n*DLOAD\n101,P1,1\n", "line 3: \\*DLOAD is not read"),
+    ("*CLOAD\nTOP,2,1\n*DLOAD\n101,P1,1\n", "line 3: \\*DLOAD is not read here: give a uniform pressure by --pressure"),
     ("*STEP\n*CLOAD\nTOP,2,1\n*END STEP\n*STEP\n*CLOAD\nTOP,2,1\n", "line 6: \\*CLOAD of another load case follows"),
     ("*BOUNDARY\nTOP,2,1\n", "line 2: the last direction is less than the first one"),
     ("*BOUNDARY\nTOP,PINNED\n", 'line 2: "PINNED" is no axis: 1 to 6'),
@@ -287,6 +301,10 @@ class Refusals(MeshesCase):
         rows = Path("lower.dof").read_text().splitlines()
         Path("twice.dof").write_text("\n".join([rows[1], *rows[1:]]) + "\n")
         shutil.copy(DATA / "mtx" / "beam_stiffness.mtx", "beam.mtx")
+        # Another part of the upper body, which does not move with it.
+        rows = Path("upper.dof").read_text().splitlines()
+        Path("parts.dof").write_text("\n".join([*rows, "7001.2"]))
+        Path("parts.sti").write_text(f"{Path('upper.sti').read_text()}\n{len(rows) + 1} {len(rows) + 1} 5.\n")
         for line, message, code in [(f"{TWO} {line}", *rest) for line, *rest in WRONG] + ALONE:
             with self.subTest(line=line):
                 self.assert_refused(line.split(), message, code)

@@ -65,6 +65,7 @@ REFUSED = [
     (NODES + "*NGEN\n1,5\n", "line 6: *NGEN is not read"),
     ("*PART, NAME=P\n" + NODES, "line 1: *PART is not read"),
     (NODES + "*NODEE\n7,0.\n", 'line 6: "*NODEE" is no keyword'),
+    ("GRID*, 7\n*, 0.\n", 'line 2: "*" is no keyword of Abaqus or CalculiX, and none stands above'),
     (NODES + "*NOD\n7,0.\n", 'line 6: "NOD" may be NODE or'),
     (NODES + "*NSET, NSET=A, GENERTE\n1,5\n", 'line 6: *NSET: the parameter "GENERTE" is not read'),
     (NODES + "*NSET, NSET=A, NSE=B\n1,5\n", "line 6: *NSET: NSET is given twice"),

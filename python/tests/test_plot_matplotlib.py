@@ -397,6 +397,8 @@ class Matplotlib(Pictures):
         for picture in ("line", "map", "gap", "path", "stress", "levels"):
             with self.assertRaisesRegex(TypeError, rf"fuge.plot.{picture} draws a \w+.*, not ndarray"):
                 getattr(fuge.plot, picture)(self.ball.force)
+        resolved = fuge.solve_line(lambda x: x**2, (-1.0, 1.0), e_star=1.0, load=0.1)
+        self.assertRaisesRegex(TypeError, "not ResolvedContact: draw its arrays x, y", fuge.plot.line, resolved)
 
     def test_is_imported_for_the_first_picture_only(self):
         script = (

@@ -133,7 +133,7 @@ WRONG_NAMES = [
     ("3.1\n3.2\n", "5,1,5,1,2.\n", "pass no file of names"),
     ("3.1\n3.2\n", MARKET + "1 1\n4\n", "the file has 1 rows, but 2 are named"),
     ("3.1\n3.2\n3.3\n", DENSE + LAST, 'the matrix "K" has 2 rows, but 3 are named'),
-    ("3.1\n3.1\n", "1 1 2.\n", "line 2: node 3, direction 1 is the name of row 1 already"),
+    ("3.1\n3.1\n", "1 1 2.\n", "line 2: node 3, direction 1 is the name of row 1 already: CalculiX"),
     ("3.1\n7 2 1\n", "1 1 2.\n", "line 2: the node and the direction of one row are needed here, like 17.3"),
     ("3.10000\n", "1 1 2.\n", 'line 1: direction "10000" is outside 0 .. 9999'),
     ("\n", "1 1 2.\n", "the file names no row"),
@@ -196,6 +196,7 @@ class Stiffness(InFolder):
         for names, text, reason in WRONG_NAMES:
             with self.subTest(text):
                 self.refused(reason, fuge.read_stiffness, self.file("k", text), names_path=self.file("k.dof", names))
+        self.assertRaisesRegex(fuge.FileError, 'none.sti" cannot be opened', fuge.read_stiffness, "none.sti")
         self.assertRaisesRegex(fuge.FileError, 'j.dof" cannot be opened', fuge.read_stiffness, self.file("j.sti", ""))
         self.assertRaisesRegex(fuge.InputError, "must be one of 'any'", fuge.read_stiffness, "k", "nastran")
 

@@ -58,7 +58,10 @@ def solve_deck(given: Options, log: Log) -> Outcome:
 
 
 def _read(given: Options, log: Log) -> _Model:
-    deck = fuge.read_deck(given.file("deck")) if given.has("deck") else fuge.Deck()
+    with caught() as warned:
+        deck = fuge.read_deck(given.file("deck")) if given.has("deck") else fuge.Deck()
+    for warning in warned:
+        log.warn(warning.message)
     for option in ("links", "supports", "cases"):
         if given.has(option):
             getattr(deck, f"read_{option}")(given.file(option))

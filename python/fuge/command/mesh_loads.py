@@ -196,6 +196,8 @@ def _deck(given: Options, path: str, kind: _Kind) -> Iterator[_Condition]:
         step += block.keyword == "STEP"
         if block.keyword in kind.skipped.split():
             continue
+        if kind is _LOAD and block.keyword in ("DLOAD", "DSLOAD"):
+            raise block.refuse(f"*{block.keyword} is not read here: give a uniform pressure by --pressure SURFACE=P")
         parameters = parameters_of(block)
         if block.keyword == kind.keyword:
             if steps - {0, step} or (steps - {step} and parameters.get("OP") == "NEW"):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import Callable, NamedTuple, TypeVar
 
 import numpy as np
@@ -21,6 +22,8 @@ from fuge.formats.text import quoted_path, whole
 from fuge.mesh import join_meshes
 
 AXES = ("x", "y", "z", "about x", "about y", "about z")
+# CalculiX computes elements CAX on a sector of 2 degrees, and takes loads for the whole ring.
+_SECTORS = 180
 # Names that a message lists.
 _LISTED = 40
 
@@ -61,8 +64,12 @@ class MeshBody:
         if "stiffness" in part:
             names = part["rows"].path() if "rows" in part else None
             matrix = part["matrix"].value if "matrix" in part else None
-            self.stiffness = read_stiffness(part["stiffness"].path(), names_path=names, name=matrix)
+            path = part["stiffness"].path()
+            self.stiffness = read_stiffness(path, names_path=names, name=matrix)
             log.say(f"stiffness of {name}: {self.stiffness.shape[0]} rows, {self.stiffness.row.size} entries")
+            if path.lower().endswith(".sti") and any(map(is_ring, self.mesh.element_types)):
+                self.stiffness = replace(self.stiffness, value=_SECTORS * self.stiffness.value)
+                log.note(f"{quoted_path(path)} is multiplied by {_SECTORS}: CalculiX has 2 degrees of a ring")
             return
         for option in part.keys() & {"rows", "matrix"}:
             raise part[option].refuse("its body has no --stiffness")

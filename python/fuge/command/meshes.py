@@ -169,7 +169,9 @@ def _moving(failure: EquilibriumError, model: MeshModel, body: Body, n: int, mot
     owner = model.row_owner[abs(moved).argmax()]
     along = [moved[(model.row_owner == owner) & (model.row_direction == k)] for k in (1, 2, 3)]
     limit = _NO_MOTION * max(abs(rows).max(initial=0.0) for rows in along)
-    axes = [axis for axis, rows in zip("xyz", along) if abs(rows).max(initial=0.0) > limit]
+    # What stands still belongs to other parts of the body, as where one matrix has several.
+    along = [rows[abs(rows) > limit] for rows in along]
+    axes = [axis for axis, rows in zip("xyz", along) if rows.size]
     how = f"displacement along {axes[0]}" if len(axes) == 1 else "displacement aslant"
     if any(rows.size and np.ptp(rows) > limit for rows in along):
         how = "a rotation"

@@ -79,7 +79,7 @@ def read_blocks(path: PathLike, paths: list[str] | None = None) -> Iterator[Bloc
             files.pop()
         if not line or line.startswith("**"):
             continue
-        keyword = _parsed(line, file)
+        keyword = _parsed(line, file, first=block is None or not block.keyword)
         if keyword.keyword == "INCLUDE":
             with located(keyword.place):
                 files.append(_File(inclusions.include(_included_path(keyword), len(files))))
@@ -120,7 +120,7 @@ class _File:
         return self._lines[self._next - 1]
 
 
-def _parsed(line: str, file: _File) -> Block:
+def _parsed(line: str, file: _File, first: bool) -> Block:
     """The keyword of a line, with the lines below it as long as a line ends with a comma."""
     place = file.place
     items, continued = split_items(line)
@@ -139,7 +139,8 @@ def _parsed(line: str, file: _File) -> Block:
     with located(place):
         keyword = complete(text, KEYWORDS)
         if keyword is None:
-            raise Reason(f"{quoted(f'*{text}')} is no keyword of Abaqus or CalculiX")
+            known = ", and none stands above: is this an input file of theirs?" if first else ""
+            raise Reason(f"{quoted(f'*{text}')} is no keyword of Abaqus or CalculiX{known}")
     block = Block(keyword, {}, place)
     for item in filter(None, items[1:]):
         name, _, value = item.partition("=")

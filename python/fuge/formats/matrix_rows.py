@@ -97,6 +97,8 @@ def read_row_names(path: PathLike) -> Keys:
     _, first, place = np.unique(names, return_index=True, return_inverse=True)
     for k in np.flatnonzero(first[place] != np.arange(len(names))):
         reason = f"{row_name(int(k), names)} is the name of row {first[place][k] + 1} already"
+        if file.path.endswith(".dof"):
+            reason += ": CalculiX makes solids of beams, shells and some elements of a plane: use solid elements there"
         raise file.refuse(lines[k], reason)
     return names
 

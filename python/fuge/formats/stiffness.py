@@ -53,9 +53,9 @@ def read_stiffness(
         The format is unknown.
     """
     _arrays.choice("format", format, dict.fromkeys(get_args(StiffnessFormat), 0))
+    file = read_text(path)
     names = _names(os.fspath(path), format, names_path)
     rows = 0 if names is None else len(names)
-    file = read_text(path)
     if file.lines and _BINARY.match(file.lines[0]):
         raise refusal(path, "this is a binary file, as of OUTPUT4: only text is read, write it with FORM=FORMATTED")
     known = _recognised(file) if format == "any" else format

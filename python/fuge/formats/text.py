@@ -156,7 +156,10 @@ class Inclusions:
             raise Reason(f"more than {_MOST_FILES} files include each other: does one include itself?")
         if self._count > _MOST_INCLUDED:
             raise Reason(f"more than {_MOST_INCLUDED} files are included: do they include others twice?")
-        return self.read(os.path.join(self._folder, path))
+        try:
+            return self.read(os.path.join(self._folder, path))
+        except FileError as failure:
+            raise Reason(f"the included file {failure.message}") from None
 
 
 def split_columns(line: str) -> tuple[list[str], list[str]]:
