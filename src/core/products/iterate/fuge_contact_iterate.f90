@@ -9,7 +9,7 @@ module fuge_contact_iterate
   implicit none
   private
 
-  public :: deformed_gap, overlap_at, start_iterate
+  public :: deformed_gap, is_below, overlap_at, start_iterate
 
   !> Under a load, forces and lengths are divided by the load; with a prescribed motion they are not scaled.
   type, extends(contact_set), public :: contact_iterate
@@ -89,27 +89,41 @@ contains
     gap = (reduced_gap - motion) + displacement
   end function deformed_gap
 
-  !> How far point `k`, which is not in contact, is on the wrong side of a stop, where forces have limits: an open point
-  !> beyond it, one at its limit before it; not positive if it is not.
+  !> How far point `k`, which is not in contact, is on the wrong side of a stop: an open point beyond it, one at its
+  !> limit before it; not positive if it is not.
   pure function overlap_at(scene, iterate, k) result(overlap)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
     integer, intent(in) :: k
     real(dp) :: overlap
     real(dp) :: gap
+    integer :: limited
 
     overlap = 0.0_dp
     if (scene%gap(k) >= OUT_OF_REACH) return
     gap = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
-    select case (iterate%limited(k))
+    limited = 0
+    if (allocated(iterate%limited)) limited = iterate%limited(k)
+    select case (limited)
     case (1)
       overlap = gap
     case (-1)
       overlap = scene%play(k) - gap
     case default
-      if (scene%limit(k) > 0.0_dp) overlap = -gap
+      if (scene%pushes(k)) overlap = -gap
+      if (.not. allocated(scene%play)) return
       if (scene%play(k) < huge(gap)) overlap = max(overlap, gap - scene%play(k))
     end select
   end function overlap_at
+
+  !> Is point `k` below its lower stop, and does that push?
+  pure function is_below(scene, iterate, k)
+    type(contact_scene), intent(in) :: scene
+    type(contact_iterate), intent(in) :: iterate
+    integer, intent(in) :: k
+    logical :: is_below
+
+    is_below = scene%pushes(k) .and. deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion) < 0.0_dp
+  end function is_below
 
 end module fuge_contact_iterate
