@@ -87,7 +87,7 @@ contains
     call search%stalls%start(MAX_STALLS)
     call choose_first_set(operator, scene, prepared, iterate, info)
     do while (.not. (search%done .or. info%failed()))
-      if (has_undetermined_forces(operator, scene, iterate, info)) then
+      if (has_undetermined_forces(operator, scene, iterate%contact, info)) then
         call solve_complete_contact(operator, settings, search%preconditioner, scene, monitor, iterate, info)
         search%done = scene%rows%everywhere(all(iterate%contact))
         call search%stalls%spend()
@@ -253,16 +253,16 @@ contains
 
   !> Is the contact complete and its forces undetermined, because the motion is prescribed and equal
   !> forces displace nothing? Errors: those of equal_forces_displace_nothing.
-  function has_undetermined_forces(operator, scene, iterate, info) result(undetermined)
+  function has_undetermined_forces(operator, scene, contact, info) result(undetermined)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    logical, intent(in) :: contact(:)
     type(fuge_info), intent(inout) :: info
     logical :: undetermined
 
     undetermined = .false.
     if (.not. (scene%prescribed .and. scene%is_simple())) return
-    if (scene%rows%everywhere(all(iterate%contact))) undetermined = equal_forces_displace_nothing(operator, info)
+    if (scene%rows%everywhere(all(contact))) undetermined = equal_forces_displace_nothing(operator, info)
   end function has_undetermined_forces
 
   !> Leave a complete contact whose forces are undetermined: its equations fix the differences of
@@ -473,7 +473,7 @@ contains
         if (.not. (found .and. iterate%gradients%converged)) exit
         if (newest > 0) call change_state(scene, newest, iterate)
         ! A penetration at the only open point is rounding.
-        if (has_undetermined_forces(operator, scene, iterate, info)) then
+        if (has_undetermined_forces(operator, scene, iterate%contact, info)) then
           if (newest > 0) iterate%contact(newest) = .false.
           exit
         end if
