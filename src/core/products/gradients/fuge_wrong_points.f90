@@ -342,11 +342,11 @@ contains
     integer :: i
 
     if (k < 1) return
-    associate (scene => pass%scene, set => pass%set, work => pass%gradients%work)
+    associate (scene => pass%scene, set => pass%set, gradients => pass%gradients)
       do i = first, last
         if (.not. set%contact(i)) cycle
-        found(1) = max(found(1), abs(work(i)))
-        found(2) = max(found(2), excess_of(scene, set, i, set%force(i) - work(i)))
+        found(1) = max(found(1), abs(gradients%work(i)))
+        found(2) = max(found(2), excess_of(scene, set, i, set%force(i) - gradients%work(i)))
       end do
     end associate
   end subroutine find_errors_of_ranges

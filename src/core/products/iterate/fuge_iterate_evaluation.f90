@@ -59,20 +59,21 @@ contains
 
     found = 0.0_dp
     associate (scene => pass%scene, iterate => pass%iterate, segments => pass%iterate%segments, &
-               residual => pass%iterate%gradients%residual)
+               gradients => pass%iterate%gradients)
       end_before = first - 1
       do i = segments%before(k) + 1, segments%before(k + 1)
-        residual(end_before + 1:segments%first(i) - 1) = 0.0_dp
+        gradients%residual(end_before + 1:segments%first(i) - 1) = 0.0_dp
         end_before = segments%last(i)
         ! A loop, because array assignments between components of pointers go through a copy.
         do j = segments%first(i), end_before
-          residual(j) = scene%gap(j) + iterate%displacement(j)
+          gradients%residual(j) = scene%gap(j) + iterate%displacement(j)
         end do
       end do
-      residual(end_before + 1:last) = 0.0_dp
+      gradients%residual(end_before + 1:last) = 0.0_dp
       if (.not. allocated(scene%play)) return
       do i = first, last
-        if (iterate%contact(i) .and. iterate%at_upper(i)) residual(i) = residual(i) - scene%play(i)
+        if (.not. iterate%contact(i)) cycle
+        if (iterate%at_upper(i)) gradients%residual(i) = gradients%residual(i) - scene%play(i)
       end do
     end associate
   end subroutine set_residuals
@@ -85,20 +86,20 @@ contains
     real(dp), allocatable :: factors(:)
     real(dp) :: mean
 
-    if (allocated(scene%modes)) then
-      allocate (factors(size(scene%load)))
-      call iterate%projection%components(iterate%segments, iterate%gradients%residual, factors)
-      call iterate%projection%subtract_on(iterate%segments, factors, iterate%gradients%residual)
-      call iterate%projection%subtract(factors, iterate%displacement)
-      iterate%rigid_motion = iterate%rigid_motion + iterate%projection%motion(factors)
-      iterate%lengths%residual_norm = max_abs_over(iterate%segments, iterate%gradients%residual)
-      iterate%gradients%unprojected = iterate%lengths%residual_norm
-      return
-    end if
-    mean = 0.0_dp
-    associate (segments => iterate%segments, residual => iterate%gradients%residual)
-      if (.not. scene%prescribed) mean = sum_over(segments, residual)/real(segments%points, dp)
-      call center_over(segments, mean, residual, iterate%lengths%residual_norm)
+    associate (segments => iterate%segments, gradients => iterate%gradients, lengths => iterate%lengths)
+      if (allocated(scene%modes)) then
+        allocate (factors(size(scene%load)))
+        call iterate%projection%components(segments, gradients%residual, factors)
+        call iterate%projection%subtract_on(segments, factors, gradients%residual)
+        call iterate%projection%subtract(factors, iterate%displacement)
+        iterate%rigid_motion = iterate%rigid_motion + iterate%projection%motion(factors)
+        lengths%residual_norm = max_abs_over(segments, gradients%residual)
+        gradients%unprojected = lengths%residual_norm
+        return
+      end if
+      mean = 0.0_dp
+      if (.not. scene%prescribed) mean = sum_over(segments, gradients%residual)/real(segments%points, dp)
+      call center_over(segments, mean, gradients%residual, lengths%residual_norm)
     end associate
     iterate%motion = iterate%motion + mean
   end subroutine project_residual
