@@ -8,11 +8,12 @@ module fuge_probed_compliance
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_conjugate_gradients, only: conjugate_gradients
   use fuge_contact_displacement, only: compute_displacement
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap, overlap_at
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_contact_segments, only: add_scaled_over, contact_segments, dot_over, max_abs_over
   use fuge_contact_set, only: contact_set
+  use fuge_deformed_gaps, only: deformed_gap, overlap_at
   use fuge_iterate_evaluation, only: remove_rigid_part
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp

@@ -13,7 +13,8 @@ module fuge_projected_gradients
     max_abs_over
   use fuge_contact_set, only: contact_set
   use fuge_contact_step, only: step_over
-  use fuge_iterate_evaluation, only: evaluate_iterate, find_penetration, project_residual, remove_rigid_part
+  use fuge_deformed_gaps, only: find_penetration
+  use fuge_iterate_evaluation, only: evaluate_iterate, project_residual, remove_rigid_part
   use fuge_iterate_pass, only: iterate_pass
   use fuge_kinds, only: dp
   use fuge_least_magnitude, only: find_least_magnitude

@@ -3,9 +3,10 @@
 !> back to the stop. How many there are, which are worst, and their exchange.
 module fuge_wrong_points
   use fuge_conjugate_gradients, only: conjugate_gradients
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap, is_below, overlap_at
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_set, only: contact_set, excess_of, leave_stop, return_to_stop
+  use fuge_deformed_gaps, only: deformed_gap, is_below, overlap_at
   use fuge_iterate_pass, only: iterate_pass
   use fuge_kinds, only: dp
   use fuge_limited_points, only: choose_limited_contact, keep_on_one_rank

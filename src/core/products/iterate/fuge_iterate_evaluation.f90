@@ -1,10 +1,10 @@
 !> Motion and errors of an iterate, from its forces and their displacements.
 module fuge_iterate_evaluation
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap, overlap_at
-  use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_iterate, only: contact_iterate
+  use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: center_over, max_abs_over, sum_over
   use fuge_contact_set, only: contact_set
-  use fuge_contact_step, only: deepest_penetration
+  use fuge_deformed_gaps, only: find_penetration
   use fuge_iterate_pass, only: iterate_pass
   use fuge_kinds, only: dp
   use fuge_least_magnitude, only: find_least_magnitude
@@ -13,7 +13,7 @@ module fuge_iterate_evaluation
   implicit none
   private
 
-  public :: evaluate_iterate, find_penetration, project_residual, remove_rigid_part
+  public :: evaluate_iterate, project_residual, remove_rigid_part
 
 contains
 
@@ -122,58 +122,5 @@ contains
       call center_over(set%segments, mean, values, largest_ignored)
     end if
   end subroutine remove_rigid_part
-
-  !> The deepest penetration of an open point, through either stop; 0 if none penetrates.
-  function find_penetration(scene, iterate) result(depth)
-    type(contact_scene), intent(in), target :: scene
-    type(contact_iterate), intent(in), target :: iterate
-    real(dp) :: depth
-    type(iterate_pass) :: pass
-    real(dp) :: deepest(1)
-
-    if (.not. allocated(scene%play)) then
-      depth = deepest_penetration(iterate%segments, scene%gap, iterate%motion, iterate%displacement)
-      return
-    end if
-    pass%scene => scene
-    pass%iterate => iterate
-    if (scene%has_limits()) then
-      call pass%go(find_overlaps, size(scene%gap), 0, deepest)
-      depth = scene%rows%largest(deepest(1))
-    else
-      depth = deepest_penetration(iterate%segments, scene%gap, iterate%motion, iterate%displacement)
-      call pass%go(penetrate_upper_stops, size(scene%gap), 0, deepest)
-      depth = scene%rows%largest(max(depth, deepest(1)))
-    end if
-  end function find_penetration
-
-  !> Found: the largest overlap of a point that is not in contact.
-  subroutine find_overlaps(pass, k, first, last, found)
-    class(iterate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
-    real(dp), intent(inout) :: found(:)
-    integer :: i
-
-    if (k < 1) return
-    do i = first, last
-      if (.not. pass%iterate%contact(i)) found(1) = max(found(1), overlap_at(pass%scene, pass%iterate, i))
-    end do
-  end subroutine find_overlaps
-
-  !> Found: the deepest penetration of an open point through its upper stop.
-  subroutine penetrate_upper_stops(pass, k, first, last, found)
-    class(iterate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
-    real(dp), intent(inout) :: found(:)
-    integer :: i
-
-    if (k < 1) return
-    associate (scene => pass%scene, iterate => pass%iterate)
-      do i = first, last
-        if (iterate%contact(i) .or. scene%play(i) >= huge(1.0_dp) .or. scene%gap(i) >= OUT_OF_REACH) cycle
-        found(1) = max(found(1), deformed_gap(scene%gap(i), iterate%displacement(i), iterate%motion) - scene%play(i))
-      end do
-    end associate
-  end subroutine penetrate_upper_stops
 
 end module fuge_iterate_evaluation

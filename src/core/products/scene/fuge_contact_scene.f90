@@ -41,7 +41,6 @@ module fuge_contact_scene
     procedure :: is_unloaded
     procedure :: is_tied
     procedure :: has_limits
-    procedure :: pushes
     procedure :: find_range
     procedure :: limited_force
     procedure :: tied_points
@@ -113,16 +112,6 @@ contains
 
     has_limits = allocated(self%limit)
   end function has_limits
-
-  !> Does the lower stop of point `k` push?
-  pure function pushes(self, k)
-    class(contact_scene), intent(in) :: self
-    integer, intent(in) :: k
-    logical :: pushes
-
-    pushes = .true.
-    if (allocated(self%limit)) pushes = self%limit(k) > 0.0_dp
-  end function pushes
 
   !> The least and the largest force of point `k` at its lower stop, or `at_upper`; huge without a limit.
   pure subroutine find_range(self, k, at_upper, least, most)
