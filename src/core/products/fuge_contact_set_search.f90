@@ -20,8 +20,7 @@ module fuge_contact_set_search
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
   use fuge_limited_descent, only: descend_within_limits
-  use fuge_limited_points, only: exchange_limited_points, greatest_excess, release_furthest, return_deepest, &
-    set_balanced_forces, step_to_limit
+  use fuge_limited_points, only: release_furthest, set_balanced_forces, step_to_limit
   use fuge_monitor_type, only: fuge_monitor
   use fuge_number_text, only: index_text
   use fuge_operator_type, only: fuge_operator
@@ -30,8 +29,8 @@ module fuge_contact_set_search
   use fuge_single_search, only: find_in_single, suits_single
   use fuge_stall_counter, only: stall_counter
   use fuge_status, only: fuge_info, report, require_memory, FUGE_ERR_NOT_DEFINITE
-  use fuge_wrong_points, only: choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, &
-    penetrated_stop
+  use fuge_wrong_points, only: change_state, choose_contact, count_wrong_points, deepest_open_point, &
+    exchange_wrong_points, greatest_tension
   implicit none
   private
 
@@ -88,7 +87,7 @@ contains
     call search%stalls%start(MAX_STALLS)
     call choose_first_set(operator, scene, prepared, iterate, info)
     do while (.not. (search%done .or. info%failed()))
-      if (has_undetermined_forces(operator, scene, iterate, info)) then
+      if (has_undetermined_forces(operator, scene, iterate%contact, info)) then
         call solve_complete_contact(operator, settings, search%preconditioner, scene, monitor, iterate, info)
         search%done = scene%rows%everywhere(all(iterate%contact))
         call search%stalls%spend()
@@ -173,14 +172,10 @@ contains
     integer :: cells(2)
     logical :: in_row
 
-    if (scene%has_limits()) then
-      call exchange_limited_points(scene, penetration_noise(settings, iterate%lengths), iterate)
-    else
-      cells = operator%grid()
-      in_row = all(cells > 0) .and. any(cells == 1)
-      call exchange_wrong_points(scene, penetration_noise(settings, iterate%lengths), &
-                                 in_row .and. 2*search%stalls%left > MAX_STALLS, iterate, info)
-    end if
+    cells = operator%grid()
+    in_row = all(cells > 0) .and. any(cells == 1) .and. .not. scene%has_limits()
+    call exchange_wrong_points(scene, penetration_noise(settings, iterate%lengths), &
+                               in_row .and. 2*search%stalls%left > MAX_STALLS, iterate, info)
     if (info%failed()) return
     call begin_new_set(search, iterate%gradients)
     call make_feasible(operator, scene, iterate, info)
@@ -258,16 +253,16 @@ contains
 
   !> Is the contact complete and its forces undetermined, because the motion is prescribed and equal
   !> forces displace nothing? Errors: those of equal_forces_displace_nothing.
-  function has_undetermined_forces(operator, scene, iterate, info) result(undetermined)
+  function has_undetermined_forces(operator, scene, contact, info) result(undetermined)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
+    logical, intent(in) :: contact(:)
     type(fuge_info), intent(inout) :: info
     logical :: undetermined
 
     undetermined = .false.
     if (.not. (scene%prescribed .and. scene%is_simple())) return
-    if (scene%rows%everywhere(all(iterate%contact))) undetermined = equal_forces_displace_nothing(operator, info)
+    if (scene%rows%everywhere(all(contact))) undetermined = equal_forces_displace_nothing(operator, info)
   end function has_undetermined_forces
 
   !> Leave a complete contact whose forces are undetermined: its equations fix the differences of
@@ -476,9 +471,9 @@ contains
         newest = deepest_open_point(scene, iterate, penetration_noise(settings, iterate%lengths), locked)
         found = scene%rows%anywhere(newest > 0)
         if (.not. (found .and. iterate%gradients%converged)) exit
-        call join_contact(scene, newest, iterate)
+        if (newest > 0) call change_state(scene, newest, iterate)
         ! A penetration at the only open point is rounding.
-        if (has_undetermined_forces(operator, scene, iterate, info)) then
+        if (has_undetermined_forces(operator, scene, iterate%contact, info)) then
           if (newest > 0) iterate%contact(newest) = .false.
           exit
         end if
@@ -515,13 +510,14 @@ contains
       feasible = iterate%force
       call solve_on_contact_set(operator, settings, preconditioner, scene, .true., monitor, iterate, info)
       if (info%failed()) exit
-      if (greatest_excess(scene, iterate%contact_set) > 0.0_dp) then
+      if (greatest_tension(scene, iterate%contact_set) > 0.0_dp) then
         call step_to_limit(scene, feasible, newest, locked, iterate%contact_set)
       else
         call keep_lock(scene, newest, locked)
         if (.not. iterate%gradients%converged) exit
-        call return_deepest(scene, penetration_noise(settings, iterate%lengths), locked, iterate, newest)
+        newest = deepest_open_point(scene, iterate, penetration_noise(settings, iterate%lengths), locked)
         if (.not. scene%rows%anywhere(newest > 0)) exit
+        if (newest > 0) call change_state(scene, newest, iterate)
       end if
       iterate%gradients%least_compliance = 0.0_dp
       call make_feasible(operator, scene, iterate, info)
@@ -542,7 +538,7 @@ contains
     call make_feasible(operator, scene, iterate, info)
     if (info%failed()) return
     ! Forces of the right resultants may be beyond their limits.
-    excess = greatest_excess(scene, iterate%contact_set)
+    excess = greatest_tension(scene, iterate%contact_set)
     if (.not. (allocated(scene%modes) .or. excess > 0.0_dp)) return
     call set_balanced_forces(scene, iterate%contact_set)
     call make_feasible(operator, scene, iterate, info)
@@ -560,17 +556,6 @@ contains
     keep = scene%rows%anywhere(keep)
     locked = locked .and. keep
   end subroutine keep_lock
-
-  !> Point `newest`, if it is not another rank's, joins the contact at the stop that it penetrates.
-  pure subroutine join_contact(scene, newest, iterate)
-    type(contact_scene), intent(in) :: scene
-    integer, intent(in) :: newest
-    type(contact_iterate), intent(inout) :: iterate
-
-    if (newest < 1) return
-    iterate%contact(newest) = .true.
-    if (allocated(iterate%at_upper)) iterate%at_upper(newest) = penetrated_stop(scene, 0.0_dp, iterate, newest) < 0
-  end subroutine join_contact
 
   !> Forces with the resultants but perhaps of the wrong sign become feasible ones: a step towards them from
   !> scene%balance, until the first force changes its sign. `force`, `noise`, `locked` and `state` (n) are work space.

@@ -5,8 +5,9 @@
 !> that are at their limits. Forces that go on rising with the penetration, as they would without a limit, are
 !> interpolated to where they pass it. In the same way forces go on falling where cells are open.
 module fuge_extended_forces
-  use fuge_contact_iterate, only: contact_iterate, overlap_at
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
+  use fuge_deformed_gaps, only: overlap_at
   use fuge_kinds, only: dp
   implicit none
   private

@@ -3,12 +3,13 @@
 module fuge_general_scene
   use fuge_canonical_problem, only: canonical_problem
   use fuge_constants, only: LARGEST_EXPONENT
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_contact_segments, only: contact_segments
   use fuge_contact_set, only: find_states
   use fuge_contact_solution, only: allocate_solution, contact_solution
   use fuge_contact_states, only: FUGE_AT_LOWER_STOP, FUGE_AT_UPPER_STOP
+  use fuge_deformed_gaps, only: deformed_gap
   use fuge_feasible_forces, only: clip_forces
   use fuge_kinds, only: dp
   use fuge_mode_projection, only: mode_projection

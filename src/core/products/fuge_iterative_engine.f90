@@ -6,10 +6,11 @@
 module fuge_iterative_engine
   use fuge_canonical_problem, only: canonical_problem
   use fuge_complete_contact, only: equal_forces_displace_nothing
+  use fuge_conjugate_gradients, only: conjugate_gradients
   use fuge_constants, only: LARGEST_EXPONENT
   use fuge_contact_iterate, only: contact_iterate, start_iterate
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_set, only: note_states
+  use fuge_contact_set, only: contact_set, note_states
   use fuge_contact_set_search, only: find_contact_set, report_unbounded
   use fuge_contact_states, only: FUGE_OPEN
   use fuge_contact_window, only: solve_in_window, survey_level
@@ -105,7 +106,7 @@ contains
     coarse_products = coarse_products + info%products
     fine_products = -info%products
     if (.not. found) call find_contact_set(operator, settings, scene, monitor, iterate, info)
-    if (.not. info%failed()) call keep_set(iterate, last, info)
+    if (.not. info%failed()) call keep_set(iterate%contact_set, last, iterate%gradients, info)
     if (info%failed()) return
     fine_products = fine_products + info%products
     if (settings%prepared) then
@@ -193,6 +194,7 @@ contains
     real(dp), intent(out) :: pair_compliance
     logical, intent(out) :: repeated
     type(fuge_info), intent(inout) :: info
+    real(dp) :: compliance
     logical :: enough, preconditioned
     integer :: pair(2)
 
@@ -206,8 +208,11 @@ contains
     ! On a grid the preconditioner is close to an inverse, and what conjugate gradients have found is enough.
     enough = preconditioned .and. iterate%gradients%least_compliance > 0.0_dp
     if (enough) enough = all(operator%grid() > 0)
-    if (.not. enough) call probe_compliance(operator, scene, length, monitor, iterate, info)
-    if (info%failed()) return
+    if (.not. enough) then
+      call probe_compliance(operator, scene, length, monitor, iterate, compliance, info)
+      if (info%failed()) return
+      iterate%gradients%least_compliance = compliance
+    end if
     repeated = .not. pair_compliance > 0.0_dp
     if (preconditioned .or. pair_compliance < huge(pair_compliance)) return
     call find_repeated_points(operator, scene, iterate, pair, info)
@@ -216,9 +221,10 @@ contains
 
   !> Keep the contact set for derivatives, and what conjugate gradients found on it. A start that needs no step tells
   !> nothing of the operator: the last solve on the same set does. Error: FUGE_ERR_MEMORY.
-  subroutine keep_set(iterate, last, info)
-    type(contact_iterate), intent(inout) :: iterate
+  subroutine keep_set(set, last, gradients, info)
+    type(contact_set), intent(in) :: set
     type(iterated_set), intent(inout) :: last
+    type(conjugate_gradients), intent(inout) :: gradients
     type(fuge_info), intent(inout) :: info
     logical :: same
     integer :: stat
@@ -226,23 +232,23 @@ contains
     stat = 0
     same = .false.
     if (allocated(last%state)) then
-      if (size(last%state) /= size(iterate%contact)) deallocate (last%state)
+      if (size(last%state) /= size(set%contact)) deallocate (last%state)
     end if
     if (.not. allocated(last%state)) then
-      allocate (last%state(size(iterate%contact)), stat=stat)
-      call require_memory(stat, 'the contact set of', size(iterate%contact), 'points', info)
+      allocate (last%state(size(set%contact)), stat=stat)
+      call require_memory(stat, 'the contact set of', size(set%contact), 'points', info)
     else
-      same = all((last%state /= FUGE_OPEN) .eqv. iterate%contact)
+      same = all((last%state /= FUGE_OPEN) .eqv. set%contact)
     end if
-    associate (space => iterate%segments%space)
+    associate (space => set%segments%space)
       call space%agree(info)
       if (info%failed()) return
-      if (.not. iterate%gradients%least_compliance > 0.0_dp) then
-        if (space%everywhere(same)) iterate%gradients%least_compliance = last%least_compliance
+      if (.not. gradients%least_compliance > 0.0_dp) then
+        if (space%everywhere(same)) gradients%least_compliance = last%least_compliance
       end if
     end associate
-    call note_states(iterate%contact_set, last%state)
-    last%least_compliance = iterate%gradients%least_compliance
+    call note_states(set, last%state)
+    last%least_compliance = gradients%least_compliance
   end subroutine keep_set
 
   !> Start from earlier solutions if that promises to cost less than coarser grids: history%started_warm, with the

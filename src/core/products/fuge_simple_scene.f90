@@ -2,8 +2,9 @@
 !> solution in the units of the problem.
 module fuge_simple_scene
   use fuge_constants, only: LARGEST_EXPONENT
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
+  use fuge_deformed_gaps, only: deformed_gap
   use fuge_kinds, only: dp
   use fuge_number_text, only: text
   use fuge_operator_type, only: fuge_operator

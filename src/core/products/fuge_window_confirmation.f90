@@ -74,7 +74,7 @@ contains
       lengths%least_magnitude = lengths%largest_magnitude - found(3)
       call lengths%note_start()
       confirmed = lengths%is_accurate(SAFETY*settings%tolerance) &
-                  .and. lengths%penetration <= SAFETY**2*settings%tolerance*lengths%least_magnitude
+                  .and. lengths%penetration <= lengths%allowed(SAFETY**2*settings%tolerance)
     end associate
   end subroutine confirm_window
 

@@ -1,17 +1,14 @@
-!> Points on the wrong side where forces have limits: in contact although their force is beyond the range that its stop
-!> gives it, open although they penetrate a stop, or at their limit although the gap has come back to the stop.
+!> Points whose forces have limits: states, balanced forces, and the steps of the active-set method.
 module fuge_limited_points
-  use fuge_conjugate_gradients, only: conjugate_gradients
-  use fuge_contact_iterate, only: contact_iterate, overlap_at
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
-  use fuge_contact_set, only: contact_set, leave_stop, return_to_stop
+  use fuge_contact_set, only: contact_set, excess_of, leave_stop, return_to_stop
   use fuge_equilibrium, only: find_equilibrium
   use fuge_kinds, only: dp
   implicit none
   private
 
-  public :: choose_limited_contact, count_wrong_limited, exchange_limited_points, excess_is_decided, greatest_excess, &
-    keep_on_one_rank, release_furthest, return_deepest, set_balanced_forces, step_to_limit
+  public :: choose_limited_contact, keep_on_one_rank, release_furthest, set_balanced_forces, step_to_limit
 
   !> Forces this near to their limits, as a fraction of these, are there.
   real(dp), parameter :: ROUNDING = 1.0e-12_dp
@@ -47,76 +44,6 @@ contains
     set%contact = scene%limit > 0.0_dp
     if (allocated(scene%excluded)) set%contact = set%contact .and. .not. scene%excluded
   end subroutine choose_limited_contact
-
-  !> By how much a `force` at point `k`, in contact, is beyond the range that its stop gives it.
-  pure function excess_of(scene, set, k, force) result(excess)
-    type(contact_scene), intent(in) :: scene
-    type(contact_set), intent(in) :: set
-    integer, intent(in) :: k
-    real(dp), intent(in) :: force
-    real(dp) :: excess
-    real(dp) :: least, most
-
-    call scene%find_range(k, set%at_upper(k), least, most)
-    excess = max(least - force, force - most)
-  end function excess_of
-
-  !> Is point `k` on the wrong side, by more than `noise` if it is not in contact?
-  pure function is_wrong(scene, noise, iterate, k)
-    type(contact_scene), intent(in) :: scene
-    real(dp), intent(in) :: noise
-    type(contact_iterate), intent(in) :: iterate
-    integer, intent(in) :: k
-    logical :: is_wrong
-
-    if (iterate%contact(k)) then
-      is_wrong = excess_of(scene, iterate%contact_set, k, iterate%force(k)) > iterate%tension_noise
-    else
-      is_wrong = overlap_at(scene, iterate, k) > noise
-    end if
-  end function is_wrong
-
-  !> Number of points on the wrong side.
-  function count_wrong_limited(scene, noise, iterate) result(wrong)
-    type(contact_scene), intent(in) :: scene
-    real(dp), intent(in) :: noise
-    type(contact_iterate), intent(in) :: iterate
-    integer :: wrong
-    integer :: k
-
-    wrong = 0
-    do k = 1, size(scene%gap)
-      if (is_wrong(scene, noise, iterate, k)) wrong = wrong + 1
-    end do
-    wrong = scene%rows%total_count(wrong)
-  end function count_wrong_limited
-
-  !> Each point on the wrong side goes to the state next to its own.
-  subroutine exchange_limited_points(scene, noise, iterate)
-    type(contact_scene), intent(in) :: scene
-    real(dp), intent(in) :: noise
-    type(contact_iterate), intent(inout) :: iterate
-    integer :: k
-
-    do k = 1, size(scene%gap)
-      if (.not. is_wrong(scene, noise, iterate, k)) cycle
-      if (iterate%contact(k)) then
-        call leave_stop(scene, k, iterate%contact_set)
-      else
-        call return_to_stop(scene, overlaps_lower(scene, iterate, k), k, iterate%contact_set)
-      end if
-    end do
-  end subroutine exchange_limited_points
-
-  !> Is the open point `k` below its lower stop, which has a force?
-  pure function overlaps_lower(scene, iterate, k) result(overlaps)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
-    integer, intent(in) :: k
-    logical :: overlaps
-
-    overlaps = scene%limit(k) > 0.0_dp .and. (scene%gap(k) - iterate%motion) + iterate%displacement(k) < 0.0_dp
-  end function overlaps_lower
 
   !> Forces within their limits that are in equilibrium with the load, and the states that belong to them.
   subroutine set_balanced_forces(scene, set)
@@ -190,30 +117,6 @@ contains
     if (abs(owner(1) - real(scene%rows%number(), dp)) > 0.0_dp) point = 0
   end subroutine keep_on_one_rank
 
-  !> The point that is furthest on the wrong side of its stop, by more than `noise` and not `locked` (n), comes back to
-  !> it: `point`, 0 if there is none, or where it is another rank's.
-  subroutine return_deepest(scene, noise, locked, iterate, point)
-    type(contact_scene), intent(in) :: scene
-    real(dp), intent(in) :: noise
-    logical, intent(in) :: locked(:)
-    type(contact_iterate), intent(inout) :: iterate
-    integer, intent(out) :: point
-    real(dp) :: greatest, overlap
-    integer :: k
-
-    point = 0
-    greatest = noise
-    do k = 1, size(scene%gap)
-      if (iterate%contact(k) .or. locked(k)) cycle
-      overlap = overlap_at(scene, iterate, k)
-      if (overlap <= greatest) cycle
-      greatest = overlap
-      point = k
-    end do
-    call keep_on_one_rank(scene, -greatest, point)
-    if (point > 0) call return_to_stop(scene, overlaps_lower(scene, iterate, point), point, iterate%contact_set)
-  end subroutine return_deepest
-
   !> Of the points at the limit of their lower stop, the one that is furthest above the stop comes back to it; only
   !> points with forces above `least` do.
   subroutine release_furthest(scene, least, iterate)
@@ -232,42 +135,7 @@ contains
       point = k
     end do
     call keep_on_one_rank(scene, -furthest, point)
-    if (point > 0) call return_to_stop(scene, overlaps_lower(scene, iterate, point), point, iterate%contact_set)
+    if (point > 0) call return_to_stop(scene, .true., point, iterate%contact_set)
   end subroutine release_furthest
-
-  !> The largest excess of a force in contact over its range; 0 if there is none.
-  function greatest_excess(scene, set) result(excess)
-    type(contact_scene), intent(in) :: scene
-    type(contact_set), intent(in) :: set
-    real(dp) :: excess
-    integer :: k
-
-    excess = 0.0_dp
-    do k = 1, size(scene%gap)
-      if (set%contact(k)) excess = max(excess, excess_of(scene, set, k, set%force(k)))
-    end do
-    if (excess <= set%tension_noise) excess = 0.0_dp
-    excess = scene%rows%largest(excess)
-  end function greatest_excess
-
-  !> As `tension_is_decided`, for forces beyond their range.
-  function excess_is_decided(scene, set, gradients, decisive) result(decided)
-    type(contact_scene), intent(in) :: scene
-    type(contact_set), intent(in) :: set
-    type(conjugate_gradients), intent(in) :: gradients
-    real(dp), intent(in) :: decisive
-    logical :: decided
-    real(dp) :: extremes(2)
-    integer :: k
-
-    extremes = 0.0_dp
-    do k = 1, size(scene%gap)
-      if (.not. set%contact(k)) cycle
-      extremes(1) = max(extremes(1), abs(gradients%work(k)))
-      extremes(2) = max(extremes(2), excess_of(scene, set, k, set%force(k) - gradients%work(k)))
-    end do
-    call scene%rows%raise(extremes)
-    decided = extremes(1) <= decisive*extremes(2)
-  end function excess_is_decided
 
 end module fuge_limited_points

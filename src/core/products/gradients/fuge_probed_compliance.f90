@@ -8,11 +8,12 @@ module fuge_probed_compliance
   use, intrinsic :: iso_fortran_env, only: int64
   use fuge_conjugate_gradients, only: conjugate_gradients
   use fuge_contact_displacement, only: compute_displacement
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap, overlap_at
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_preconditioner, only: contact_preconditioner
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
   use fuge_contact_segments, only: add_scaled_over, contact_segments, dot_over, max_abs_over
   use fuge_contact_set, only: contact_set
+  use fuge_deformed_gaps, only: deformed_gap, overlap_at
   use fuge_iterate_evaluation, only: remove_rigid_part
   use fuge_iteration_progress, only: tell_progress
   use fuge_kinds, only: dp
@@ -44,23 +45,26 @@ module fuge_probed_compliance
 
 contains
 
-  !> Lower iterate%gradients%least_compliance to what conjugate gradients find for random lengths on the points that
-  !> touch; to the least positive number where the operator is singular there.
+  !> The least `compliance` of the contact set, length per force: that of iterate%gradients, or less if conjugate
+  !> gradients find less for random lengths on the points that touch; the least positive number where the operator is
+  !> singular there.
   !>
   !> `rounding` is the length that rounding leaves open of gaps and motions. A few products, none where the forces
   !> follow from equilibrium alone, at most MOST_STEPS and one more; `monitor` may cancel. Errors: FUGE_ERR_MEMORY,
   !> FUGE_ERR_CANCELLED, those of the operator.
-  subroutine probe_compliance(operator, scene, rounding, monitor, iterate, info)
+  subroutine probe_compliance(operator, scene, rounding, monitor, iterate, compliance, info)
     class(fuge_operator), intent(in) :: operator
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: rounding
     class(fuge_monitor), intent(inout) :: monitor
-    type(contact_iterate), intent(inout) :: iterate
+    type(contact_iterate), intent(in) :: iterate
+    real(dp), intent(out) :: compliance
     type(fuge_info), intent(inout) :: info
     type(contact_preconditioner) :: preconditioner
     type(compliance_probe) :: probe
     real(dp) :: value
 
+    compliance = iterate%gradients%least_compliance
     value = -1.0_dp
     call start_probe(scene, rounding, iterate, probe, info)
     if (info%failed() .or. follow_from_equilibrium(scene, probe%set)) return
@@ -73,10 +77,8 @@ contains
                                                       info)
     if (info%failed() .or. value < 0.0_dp) return
     value = max(value, tiny(value))
-    associate (least_compliance => iterate%gradients%least_compliance)
-      if (least_compliance > 0.0_dp) value = min(value, least_compliance)
-      least_compliance = value
-    end associate
+    if (compliance > 0.0_dp) value = min(value, compliance)
+    compliance = value
   end subroutine probe_compliance
 
   !> The points that `touch` (n): the contact set, and those whose distance from a stop is within the error of the

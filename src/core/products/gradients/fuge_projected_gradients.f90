@@ -4,7 +4,7 @@
 !> equal, their common value being the rigid motion; with a prescribed motion the gaps become zero. With other rigid
 !> modes the resultants are kept, and the gaps become a rigid motion, which displacements then include.
 module fuge_projected_gradients
-  use fuge_conjugate_gradients, only: conjugate_gradients
+  use fuge_conjugate_gradients, only: conjugate_gradients, DECISIVE, NEARLY
   use fuge_contact_displacement, only: compute_displacement
   use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_preconditioner, only: contact_preconditioner
@@ -13,7 +13,8 @@ module fuge_projected_gradients
     max_abs_over
   use fuge_contact_set, only: contact_set
   use fuge_contact_step, only: step_over
-  use fuge_iterate_evaluation, only: evaluate_iterate, find_penetration, project_residual, remove_rigid_part
+  use fuge_deformed_gaps, only: find_penetration
+  use fuge_iterate_evaluation, only: evaluate_iterate, project_residual, remove_rigid_part
   use fuge_iterate_pass, only: iterate_pass
   use fuge_kinds, only: dp
   use fuge_least_magnitude, only: find_least_magnitude
@@ -27,11 +28,6 @@ module fuge_projected_gradients
 
   public :: precondition_residual, run_projected_gradients
 
-  !> The contact set can be judged once the errors of the forces are below this fraction of the
-  !> largest tension, or those of the gaps below this fraction of the deepest penetration.
-  real(dp), parameter :: DECISIVE = 0.2_dp
-  !> The preconditioned residual is measured where the residual is within this factor of the tolerance.
-  real(dp), parameter :: NEARLY = 100.0_dp
   !> Exact conjugate gradients need as many iterations as there are points; rounded ones
   !> several times as many where alpha is badly conditioned.
   integer, parameter :: ITERATIONS_PER_POINT = 10

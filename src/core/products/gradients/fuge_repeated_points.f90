@@ -4,8 +4,9 @@
 !> the two points have equal displacements under any forces, so that one product with random ones shows them.
 module fuge_repeated_points
   use fuge_contact_displacement, only: compute_displacement
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap
+  use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_deformed_gaps, only: deformed_gap
   use fuge_heap_sort, only: heap_sort
   use fuge_kinds, only: dp
   use fuge_operator_type, only: fuge_operator

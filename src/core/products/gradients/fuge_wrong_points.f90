@@ -1,22 +1,23 @@
-!> Points in the wrong state: in contact although their force pulls away from the stop, or open although they penetrate
-!> a stop. How many there are, which are worst, and their exchange.
+!> Points in the wrong state: in contact although their force is beyond the range that the stop gives it, as one that
+!> pulls away from it; open although they penetrate a stop; or at the limit of their force although the gap has come
+!> back to the stop. How many there are, which are worst, and their exchange.
 module fuge_wrong_points
   use fuge_conjugate_gradients, only: conjugate_gradients
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap
-  use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
-  use fuge_contact_set, only: contact_set
+  use fuge_contact_iterate, only: contact_iterate
+  use fuge_contact_scene, only: contact_scene
+  use fuge_contact_set, only: contact_set, excess_of, leave_stop, return_to_stop
+  use fuge_deformed_gaps, only: deformed_gap, is_below, overlap_at
   use fuge_iterate_pass, only: iterate_pass
   use fuge_kinds, only: dp
-  use fuge_limited_points, only: choose_limited_contact, count_wrong_limited, excess_is_decided, greatest_excess, &
-    keep_on_one_rank
+  use fuge_limited_points, only: choose_limited_contact, keep_on_one_rank
   use fuge_point_chunks, only: chunked_pass
   use fuge_shared_exchange, only: exchange_in_line
   use fuge_status, only: fuge_info, require_memory
   implicit none
   private
 
-  public :: choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, greatest_tension, &
-    penetrated_stop, tension_is_decided
+  public :: change_state, choose_contact, count_wrong_points, deepest_open_point, exchange_wrong_points, &
+    greatest_tension, tension_is_decided
 
   !> Partial maxima are faster than one.
   integer, parameter :: LANES = 4
@@ -79,8 +80,8 @@ contains
     end associate
   end subroutine choose_points
 
-  !> Number of points in the contact set with a tensile force and of open points that penetrate by
-  !> more than `noise`.
+  !> Number of points in the contact set whose force is beyond the range that the stop gives it, and of others that are
+  !> on the wrong side of a stop by more than `noise`.
   function count_wrong_points(scene, noise, iterate) result(wrong)
     type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: noise
@@ -89,10 +90,6 @@ contains
     type(iterate_pass) :: pass
     real(dp) :: found(1)
 
-    if (scene%has_limits()) then
-      wrong = count_wrong_limited(scene, noise, iterate)
-      return
-    end if
     pass%scene => scene
     pass%iterate => iterate
     pass%value = noise
@@ -117,11 +114,7 @@ contains
         end do
       else
         do i = first, last
-          if (iterate%contact(i)) then
-            if (pulls_away(scene, iterate%contact_set, i)) wrong = wrong + 1
-          else if (penetrated_stop(scene, pass%value, iterate, i) /= 0) then
-            wrong = wrong + 1
-          end if
+          if (is_wrong(scene, pass%value, iterate, i)) wrong = wrong + 1
         end do
       end if
     end associate
@@ -137,51 +130,38 @@ contains
     wrong = merge(force < -tension, deformed_gap(gap, displacement, motion) < -noise, contact)
   end function pulls_or_penetrates
 
-  !> Does the force of point `k`, in contact, pull away from its stop?
-  pure function pulls_away(scene, set, k)
-    type(contact_scene), intent(in) :: scene
-    type(contact_set), intent(in) :: set
-    integer, intent(in) :: k
-    logical :: pulls_away
-
-    pulls_away = .false.
-    if (.not. scene%is_tied(k)) pulls_away = tension_of(set, k, set%force(k)) > set%tension_noise
-  end function pulls_away
-
-  !> How much `force` at point `k` pulls away from its stop.
-  pure function tension_of(set, k, force) result(tension)
-    type(contact_set), intent(in) :: set
-    integer, intent(in) :: k
-    real(dp), intent(in) :: force
-    real(dp) :: tension
-
-    tension = -force
-    if (allocated(set%at_upper)) then
-      if (set%at_upper(k)) tension = force
-    end if
-  end function tension_of
-
-  !> 1 if the open point `k` penetrates the lower stop by more than `noise`, -1 the upper one, 0 if neither.
-  pure function penetrated_stop(scene, noise, iterate, k) result(stop_number)
+  !> Is the force of point `k`, in contact, beyond its range, or is the point, not in contact, on the wrong side of a
+  !> stop by more than `noise`?
+  pure function is_wrong(scene, noise, iterate, k)
     type(contact_scene), intent(in) :: scene
     real(dp), intent(in) :: noise
     type(contact_iterate), intent(in) :: iterate
     integer, intent(in) :: k
-    integer :: stop_number
-    real(dp) :: gap
+    logical :: is_wrong
 
-    stop_number = 0
-    if (scene%gap(k) >= OUT_OF_REACH) return
-    gap = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
-    if (gap < -noise) then
-      stop_number = 1
-    else if (allocated(scene%play)) then
-      if (scene%play(k) < huge(gap) .and. gap - scene%play(k) > noise) stop_number = -1
+    if (iterate%contact(k)) then
+      is_wrong = excess_of(scene, iterate%contact_set, k, iterate%force(k)) > iterate%tension_noise
+    else
+      is_wrong = overlap_at(scene, iterate, k) > noise
     end if
-  end function penetrated_stop
+  end function is_wrong
 
-  !> Tensile points leave the contact set, points that penetrate by more than `noise` join it; with
-  !> `extrapolate` more leave and fewer join, as fuge_set_exchange explains. Error: FUGE_ERR_MEMORY.
+  !> Point `k`, in the wrong state, goes to the one next to it.
+  pure subroutine change_state(scene, k, iterate)
+    type(contact_scene), intent(in) :: scene
+    integer, intent(in) :: k
+    type(contact_iterate), intent(inout) :: iterate
+
+    if (iterate%contact(k)) then
+      call leave_stop(scene, k, iterate%contact_set)
+    else
+      call return_to_stop(scene, is_below(scene, iterate, k), k, iterate%contact_set)
+    end if
+  end subroutine change_state
+
+  !> Each point in the wrong state, by more than `noise` if it is not in contact, goes to the one next to it; with
+  !> `extrapolate`, for forces without limits only, more points leave the contact set and fewer join it, as
+  !> fuge_set_exchange explains. Error: FUGE_ERR_MEMORY.
   subroutine exchange_wrong_points(scene, noise, extrapolate, iterate, info)
     type(contact_scene), intent(in), target :: scene
     real(dp), intent(in) :: noise
@@ -228,17 +208,16 @@ contains
         if (.not. allocated(scene%play)) then
           wrong = pulls_or_penetrates(iterate%contact(i), iterate%force(i), iterate%tension_noise, scene%gap(i), &
                                       iterate%displacement(i), iterate%motion, self%noise)
-        else if (iterate%contact(i)) then
-          wrong = pulls_away(scene, iterate%contact_set, i)
         else
-          call join(scene, self%noise, iterate, i, wrong)
+          wrong = is_wrong(scene, self%noise, iterate, i)
         end if
         if (associated(self%measure)) then
           self%tensile(i) = wrong .and. iterate%contact(i)
           self%penetrating(i) = wrong .and. .not. iterate%contact(i)
           self%measure(i) = measure_of(scene, iterate, i)
+          if (self%penetrating(i) .and. allocated(scene%play)) iterate%at_upper(i) = .not. is_below(scene, iterate, i)
         else if (wrong) then
-          iterate%contact(i) = .not. iterate%contact(i)
+          call change_state(scene, i, iterate)
         end if
       end do
     end associate
@@ -253,27 +232,15 @@ contains
     real(dp) :: measure
 
     if (iterate%contact(k)) then
-      measure = -tension_of(iterate%contact_set, k, iterate%force(k))
+      measure = iterate%force(k)
+      if (.not. allocated(iterate%at_upper)) return
+      if (iterate%at_upper(k)) measure = -measure
       return
     end if
     measure = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
     if (.not. allocated(scene%play)) return
     if (scene%play(k) < huge(1.0_dp)) measure = min(measure, scene%play(k) - measure)
   end function measure_of
-
-  !> Does the open point `k` penetrate a stop? Then it will be in contact with that one.
-  pure subroutine join(scene, noise, iterate, k, penetrating)
-    type(contact_scene), intent(in) :: scene
-    real(dp), intent(in) :: noise
-    type(contact_iterate), intent(inout) :: iterate
-    integer, intent(in) :: k
-    logical, intent(out) :: penetrating
-    integer :: stop_number
-
-    stop_number = penetrated_stop(scene, noise, iterate, k)
-    penetrating = stop_number /= 0
-    iterate%at_upper(k) = stop_number < 0
-  end subroutine join
 
   !> Tied points that the extrapolation released come back.
   pure subroutine keep_tied(scene, contact)
@@ -287,8 +254,8 @@ contains
     end do
   end subroutine keep_tied
 
-  !> The open point, of those not locked, that penetrates most, by more than `noise`; 0 if there
-  !> is none, or where the deepest one is another rank's.
+  !> The point, of those not in contact and not locked, that is furthest on the wrong side of a stop, by more than
+  !> `noise`; 0 if there is none, or where it is another rank's.
   function deepest_open_point(scene, iterate, noise, locked) result(deepest)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate
@@ -301,8 +268,8 @@ contains
     deepest = 0
     greatest = noise
     do k = 1, size(scene%gap)
-      if (iterate%contact(k) .or. locked(k) .or. scene%gap(k) >= OUT_OF_REACH) cycle
-      depth = -measure_of(scene, iterate, k)
+      if (iterate%contact(k) .or. locked(k)) cycle
+      depth = overlap_at(scene, iterate, k)
       if (depth <= greatest) cycle
       deepest = k
       greatest = depth
@@ -310,7 +277,7 @@ contains
     call keep_on_one_rank(scene, -greatest, deepest)
   end function deepest_open_point
 
-  !> The greatest tension in the contact set, of points that are not tied; 0 if there is none.
+  !> The greatest tension in the contact set, or excess of a force over its range; 0 if there is none.
   function greatest_tension(scene, set) result(tension)
     type(contact_scene), intent(in), target :: scene
     type(contact_set), intent(in), target :: set
@@ -318,10 +285,6 @@ contains
     type(iterate_pass) :: pass
     real(dp) :: greatest(1)
 
-    if (scene%has_limits()) then
-      tension = greatest_excess(scene, set)
-      return
-    end if
     pass%scene => scene
     pass%set => set
     call pass%go(find_tension, size(scene%gap), 0, greatest)
@@ -342,9 +305,9 @@ contains
         return
       end if
       do i = first, last
-        if (.not. set%contact(i)) cycle
-        if (pulls_away(scene, set, i)) found(1) = max(found(1), abs(set%force(i)))
+        if (set%contact(i)) found(1) = max(found(1), excess_of(scene, set, i, set%force(i)))
       end do
+      if (found(1) <= set%tension_noise) found(1) = 0.0_dp
     end associate
   end subroutine find_tension
 
@@ -359,15 +322,11 @@ contains
     type(iterate_pass) :: pass
     real(dp) :: extremes(2)
 
-    if (scene%has_limits()) then
-      decided = excess_is_decided(scene, set, gradients, decisive)
-      return
-    end if
     pass%scene => scene
     pass%set => set
     pass%gradients => gradients
     if (allocated(scene%play)) then
-      call pass%go(find_errors_between_stops, size(scene%gap), 0, extremes)
+      call pass%go(find_errors_of_ranges, size(scene%gap), 0, extremes)
     else
       call pass%go(find_errors, size(scene%gap), 0, extremes)
     end if
@@ -375,24 +334,25 @@ contains
     decided = extremes(1) <= decisive*extremes(2)
   end function tension_is_decided
 
-  !> Found: the largest error of the forces of points that may have two stops, and their greatest tension without it.
-  subroutine find_errors_between_stops(pass, k, first, last, found)
+  !> Found: the largest error of the forces of points that may have two stops or limits, and their greatest excess over
+  !> their ranges without it.
+  subroutine find_errors_of_ranges(pass, k, first, last, found)
     class(iterate_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last
     real(dp), intent(inout) :: found(:)
     integer :: i
 
     if (k < 1) return
-    associate (scene => pass%scene, set => pass%set, work => pass%gradients%work)
+    associate (scene => pass%scene, set => pass%set, gradients => pass%gradients)
       do i = first, last
         if (.not. set%contact(i)) cycle
-        found(1) = max(found(1), abs(work(i)))
-        if (.not. scene%is_tied(i)) found(2) = max(found(2), tension_of(set, i, set%force(i) - work(i)))
+        found(1) = max(found(1), abs(gradients%work(i)))
+        found(2) = max(found(2), excess_of(scene, set, i, set%force(i) - gradients%work(i)))
       end do
     end associate
-  end subroutine find_errors_between_stops
+  end subroutine find_errors_of_ranges
 
-  !> As find_errors_between_stops, of points with one stop.
+  !> As find_errors_of_ranges, of points with one stop.
   subroutine find_errors(pass, k, first, last, found)
     class(iterate_pass), intent(inout) :: pass
     integer, intent(in) :: k, first, last

@@ -7,6 +7,12 @@ module fuge_conjugate_gradients
   implicit none
   private
 
+  !> The contact set can be judged once the errors of the forces are below this fraction of the
+  !> largest tension, or those of the gaps below this fraction of the deepest penetration.
+  real(dp), parameter, public :: DECISIVE = 0.2_dp
+  !> The preconditioned residual is measured where the residual is within this factor of the tolerance.
+  real(dp), parameter, public :: NEARLY = 100.0_dp
+
   !> Vectors and numbers of conjugate gradients; scaled as forces and gaps of the scene are. There are no vectors before
   !> `prepare`: a search in single precision, which mostly is the only one, has its own.
   type, public :: conjugate_gradients

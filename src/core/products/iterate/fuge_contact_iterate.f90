@@ -1,7 +1,7 @@
 !> Forces on the points of a grid with their contact set, the displacements by them, and what a search knows of both.
 module fuge_contact_iterate
   use fuge_conjugate_gradients, only: conjugate_gradients
-  use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_scene, only: contact_scene
   use fuge_contact_set, only: contact_set
   use fuge_iterate_lengths, only: iterate_lengths
   use fuge_kinds, only: dp
@@ -9,7 +9,7 @@ module fuge_contact_iterate
   implicit none
   private
 
-  public :: deformed_gap, overlap_at, start_iterate
+  public :: start_iterate
 
   !> Under a load, forces and lengths are divided by the load; with a prescribed motion they are not scaled.
   type, extends(contact_set), public :: contact_iterate
@@ -82,37 +82,5 @@ contains
     if (.not. info%failed()) call set%projection%correct_resultants(scene%modes, scene%load, set%segments, &
                                                                         set%force, possible)
   end subroutine find_least_forces
-
-  !> Gap of a point in the deformed state; negative where the point penetrates. Scaled as in
-  !> contact_iterate.
-  elemental function deformed_gap(reduced_gap, displacement, motion) result(gap)
-    real(dp), intent(in) :: reduced_gap, displacement, motion
-    real(dp) :: gap
-
-    gap = (reduced_gap - motion) + displacement
-  end function deformed_gap
-
-  !> How far point `k`, which is not in contact, is on the wrong side of a stop, where forces have limits: an open point
-  !> beyond it, one at its limit before it; not positive if it is not.
-  pure function overlap_at(scene, iterate, k) result(overlap)
-    type(contact_scene), intent(in) :: scene
-    type(contact_iterate), intent(in) :: iterate
-    integer, intent(in) :: k
-    real(dp) :: overlap
-    real(dp) :: gap
-
-    overlap = 0.0_dp
-    if (scene%gap(k) >= OUT_OF_REACH) return
-    gap = deformed_gap(scene%gap(k), iterate%displacement(k), iterate%motion)
-    select case (iterate%limited(k))
-    case (1)
-      overlap = gap
-    case (-1)
-      overlap = scene%play(k) - gap
-    case default
-      if (scene%limit(k) > 0.0_dp) overlap = -gap
-      if (scene%play(k) < huge(gap)) overlap = max(overlap, gap - scene%play(k))
-    end select
-  end function overlap_at
 
 end module fuge_contact_iterate

@@ -10,7 +10,7 @@ module fuge_contact_set
   implicit none
   private
 
-  public :: find_states, leave_stop, note_states, return_to_stop
+  public :: excess_of, find_states, leave_stop, note_states, return_to_stop
 
   !> Under a load, forces are divided by it; with a prescribed motion they are not scaled.
   type, public :: contact_set
@@ -33,6 +33,19 @@ module fuge_contact_set
 
 contains
 
+  !> By how much a `force` at point `k`, in contact, is beyond the range that its stop gives it.
+  pure function excess_of(scene, set, k, force) result(excess)
+    type(contact_scene), intent(in) :: scene
+    type(contact_set), intent(in) :: set
+    integer, intent(in) :: k
+    real(dp), intent(in) :: force
+    real(dp) :: excess
+    real(dp) :: least, most
+
+    call scene%find_range(k, set%at_upper(k), least, most)
+    excess = max(least - force, force - most)
+  end function excess_of
+
   !> Point `k`, whose force is beyond its range, goes to its limit, or opens where the force changes its sign.
   pure subroutine leave_stop(scene, k, set)
     type(contact_scene), intent(in) :: scene
@@ -40,9 +53,9 @@ contains
     type(contact_set), intent(inout) :: set
     real(dp) :: least, most
 
-    call scene%find_range(k, set%at_upper(k), least, most)
     set%contact(k) = .false.
     if (.not. allocated(set%limited)) return
+    call scene%find_range(k, set%at_upper(k), least, most)
     set%limited(k) = 0
     if (set%force(k) > most .and. (most > 0.0_dp .or. scene%is_tied(k))) set%limited(k) = 1
     if (set%force(k) < least .and. (least < 0.0_dp .or. scene%is_tied(k))) set%limited(k) = -1
@@ -62,7 +75,7 @@ contains
       set%limited(k) = 0
     end if
     set%contact(k) = .true.
-    set%at_upper(k) = at_upper .and. .not. scene%is_tied(k)
+    if (allocated(set%at_upper)) set%at_upper(k) = at_upper .and. .not. scene%is_tied(k)
   end subroutine return_to_stop
 
   !> The `state` of each point, (n).

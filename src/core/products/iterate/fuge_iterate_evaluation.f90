@@ -1,10 +1,10 @@
 !> Motion and errors of an iterate, from its forces and their displacements.
 module fuge_iterate_evaluation
-  use fuge_contact_iterate, only: contact_iterate, deformed_gap, overlap_at
-  use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
+  use fuge_contact_iterate, only: contact_iterate
+  use fuge_contact_scene, only: contact_scene
   use fuge_contact_segments, only: center_over, max_abs_over, sum_over
   use fuge_contact_set, only: contact_set
-  use fuge_contact_step, only: deepest_penetration
+  use fuge_deformed_gaps, only: find_penetration
   use fuge_iterate_pass, only: iterate_pass
   use fuge_kinds, only: dp
   use fuge_least_magnitude, only: find_least_magnitude
@@ -13,7 +13,7 @@ module fuge_iterate_evaluation
   implicit none
   private
 
-  public :: evaluate_iterate, find_penetration, project_residual, remove_rigid_part
+  public :: evaluate_iterate, project_residual, remove_rigid_part
 
 contains
 
@@ -60,20 +60,21 @@ contains
 
     found = 0.0_dp
     associate (scene => pass%scene, iterate => pass%iterate, segments => pass%iterate%segments, &
-               residual => pass%iterate%gradients%residual)
+               gradients => pass%iterate%gradients)
       end_before = first - 1
       do i = segments%before(k) + 1, segments%before(k + 1)
-        residual(end_before + 1:segments%first(i) - 1) = 0.0_dp
+        gradients%residual(end_before + 1:segments%first(i) - 1) = 0.0_dp
         end_before = segments%last(i)
         ! A loop, because array assignments between components of pointers go through a copy.
         do j = segments%first(i), end_before
-          residual(j) = scene%gap(j) + iterate%displacement(j)
+          gradients%residual(j) = scene%gap(j) + iterate%displacement(j)
         end do
       end do
-      residual(end_before + 1:last) = 0.0_dp
+      gradients%residual(end_before + 1:last) = 0.0_dp
       if (.not. allocated(scene%play)) return
       do i = first, last
-        if (iterate%contact(i) .and. iterate%at_upper(i)) residual(i) = residual(i) - scene%play(i)
+        if (.not. iterate%contact(i)) cycle
+        if (iterate%at_upper(i)) gradients%residual(i) = gradients%residual(i) - scene%play(i)
       end do
     end associate
   end subroutine set_residuals
@@ -86,20 +87,20 @@ contains
     real(dp), allocatable :: factors(:)
     real(dp) :: mean
 
-    if (allocated(scene%modes)) then
-      allocate (factors(size(scene%load)))
-      call iterate%projection%components(iterate%segments, iterate%gradients%residual, factors)
-      call iterate%projection%subtract_on(iterate%segments, factors, iterate%gradients%residual)
-      call iterate%projection%subtract(factors, iterate%displacement)
-      iterate%rigid_motion = iterate%rigid_motion + iterate%projection%motion(factors)
-      iterate%lengths%residual_norm = max_abs_over(iterate%segments, iterate%gradients%residual)
-      iterate%gradients%unprojected = iterate%lengths%residual_norm
-      return
-    end if
-    mean = 0.0_dp
-    associate (segments => iterate%segments, residual => iterate%gradients%residual)
-      if (.not. scene%prescribed) mean = sum_over(segments, residual)/real(segments%points, dp)
-      call center_over(segments, mean, residual, iterate%lengths%residual_norm)
+    associate (segments => iterate%segments, gradients => iterate%gradients, lengths => iterate%lengths)
+      if (allocated(scene%modes)) then
+        allocate (factors(size(scene%load)))
+        call iterate%projection%components(segments, gradients%residual, factors)
+        call iterate%projection%subtract_on(segments, factors, gradients%residual)
+        call iterate%projection%subtract(factors, iterate%displacement)
+        iterate%rigid_motion = iterate%rigid_motion + iterate%projection%motion(factors)
+        lengths%residual_norm = max_abs_over(segments, gradients%residual)
+        gradients%unprojected = lengths%residual_norm
+        return
+      end if
+      mean = 0.0_dp
+      if (.not. scene%prescribed) mean = sum_over(segments, gradients%residual)/real(segments%points, dp)
+      call center_over(segments, mean, gradients%residual, lengths%residual_norm)
     end associate
     iterate%motion = iterate%motion + mean
   end subroutine project_residual
@@ -122,58 +123,5 @@ contains
       call center_over(set%segments, mean, values, largest_ignored)
     end if
   end subroutine remove_rigid_part
-
-  !> The deepest penetration of an open point, through either stop; 0 if none penetrates.
-  function find_penetration(scene, iterate) result(depth)
-    type(contact_scene), intent(in), target :: scene
-    type(contact_iterate), intent(in), target :: iterate
-    real(dp) :: depth
-    type(iterate_pass) :: pass
-    real(dp) :: deepest(1)
-
-    if (.not. allocated(scene%play)) then
-      depth = deepest_penetration(iterate%segments, scene%gap, iterate%motion, iterate%displacement)
-      return
-    end if
-    pass%scene => scene
-    pass%iterate => iterate
-    if (scene%has_limits()) then
-      call pass%go(find_overlaps, size(scene%gap), 0, deepest)
-      depth = scene%rows%largest(deepest(1))
-    else
-      depth = deepest_penetration(iterate%segments, scene%gap, iterate%motion, iterate%displacement)
-      call pass%go(penetrate_upper_stops, size(scene%gap), 0, deepest)
-      depth = scene%rows%largest(max(depth, deepest(1)))
-    end if
-  end function find_penetration
-
-  !> Found: the largest overlap of a point that is not in contact.
-  subroutine find_overlaps(pass, k, first, last, found)
-    class(iterate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
-    real(dp), intent(inout) :: found(:)
-    integer :: i
-
-    if (k < 1) return
-    do i = first, last
-      if (.not. pass%iterate%contact(i)) found(1) = max(found(1), overlap_at(pass%scene, pass%iterate, i))
-    end do
-  end subroutine find_overlaps
-
-  !> Found: the deepest penetration of an open point through its upper stop.
-  subroutine penetrate_upper_stops(pass, k, first, last, found)
-    class(iterate_pass), intent(inout) :: pass
-    integer, intent(in) :: k, first, last
-    real(dp), intent(inout) :: found(:)
-    integer :: i
-
-    if (k < 1) return
-    associate (scene => pass%scene, iterate => pass%iterate)
-      do i = first, last
-        if (iterate%contact(i) .or. scene%play(i) >= huge(1.0_dp) .or. scene%gap(i) >= OUT_OF_REACH) cycle
-        found(1) = max(found(1), deformed_gap(scene%gap(i), iterate%displacement(i), iterate%motion) - scene%play(i))
-      end do
-    end associate
-  end subroutine penetrate_upper_stops
 
 end module fuge_iterate_evaluation

@@ -6,6 +6,7 @@
 !> Q. Ye, Residual replacement strategies for Krylov subspace iterative methods, SIAM Journal on Scientific Computing
 !> 22, 2000).
 module fuge_single_gradients
+  use fuge_conjugate_gradients, only: DECISIVE, NEARLY
   use fuge_contact_iterate, only: contact_iterate
   use fuge_contact_scene, only: contact_scene
   use fuge_iterate_lengths, only: iterate_lengths
@@ -21,8 +22,6 @@ module fuge_single_gradients
 
   public :: estimate_compliance, run_single_gradients
 
-  !> As in fuge_projected_gradients.
-  real(dp), parameter :: DECISIVE = 0.2_dp, NEARLY = 100.0_dp
   !> Residuals below the first multiple of the errors of the distances are replaced, unless these are below the second
   !> fraction of what is allowed.
   real(dp), parameter :: REPLACED = 100.0_dp, NEGLIGIBLE = 0.1_dp

@@ -3,7 +3,7 @@
 !> where it is open or at a limit.
 module fuge_single_law
   use fuge_contact_scene, only: contact_scene, OUT_OF_REACH
-  use fuge_contact_set, only: contact_set, leave_stop, return_to_stop
+  use fuge_contact_set, only: contact_set, excess_of, leave_stop, return_to_stop
   use fuge_kinds, only: dp, sp
   use fuge_point_chunks, only: chunked_pass
   use fuge_single_state, only: single_state
@@ -113,15 +113,13 @@ contains
     class(law_pass), intent(in) :: pass
     integer, intent(in) :: i
     logical, intent(out) :: wrong
-    real(dp) :: least, most
 
-    associate (scene => pass%scene, set => pass%set, force => pass%set%force(i))
+    associate (scene => pass%scene, set => pass%set)
       wrong = .true.
       if (.not. set%contact(i)) then
         call return_to_stop(scene, pass%state%distance(i) < pass%state%least(i), i, set)
       else
-        call scene%find_range(i, set%at_upper(i), least, most)
-        wrong = max(least - force, force - most) > set%tension_noise
+        wrong = excess_of(scene, set, i, set%force(i)) > set%tension_noise
         if (wrong) call leave_stop(scene, i, set)
       end if
       if (wrong) call set_range(scene, set, i, pass%state)
