@@ -22,9 +22,10 @@ program mpi_model
 
   ! Sums and maxima of an iteration.
   integer, parameter :: SUMS = 20
-  ! To extend residuals and to collect forces: rows to and from neighbours on each grid that ranks share, and numbers
-  ! of the first grid that they do not share, there and back.
+  ! To extend residuals and to collect forces: messages of rows to and from neighbours on each coarser grid that ranks
+  ! share.
   integer, parameter :: ROWS = 8
+  ! For the same: numbers of the first grid that they do not share, there and back.
   real(dp), parameter :: EXTENDED = 4.0_dp*16384.0_dp
   ! As in fuge_slab_rows.
   integer, parameter :: FEWEST_CELLS = 16384, SHORTEST = 128
@@ -284,7 +285,7 @@ contains
     m = n
     do while (m >= 16)
       parts(3) = parts(3) + 4.0_dp*(active(m, p) - 1.0_dp)*where%latency
-      if (q > 1.0_dp .and. real(m, dp)**2 >= FEWEST_CELLS) then
+      if (q > 1.0_dp .and. m < n .and. real(m, dp)**2 >= FEWEST_CELLS) then
         parts(3) = parts(3) + real(ROWS, dp)*where%latency
       end if
       parts(4) = parts(4) + real(SUMS, dp)*where%latency*log(p)/log(2.0_dp)

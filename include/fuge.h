@@ -42,8 +42,8 @@
  * that returns int returns a status: 0 done, > 0 done with a warning, < 0 an error that
  * left all outputs untouched (fuge_status_text gives the general meaning).  NULL where it
  * is not allowed is FUGE_ERR_POINTER.  Nothing is printed, nothing aborts, there is no
- * global state.  Reserved members of structs have to be zero, as fuge_default_options,
- * fuge_default_link_law and `= {0}` make them.
+ * global state.  Set reserved members of structs to zero, as fuge_default_options,
+ * fuge_default_link_law and `= {0}` do: later versions read them.
  *
  * MESSAGES.  A message says what is wrong, where, and how to mend it; it is empty when all
  * is well, but for a remark of a solve with status 0 whose contact reaches the rim of a free

@@ -36,8 +36,8 @@ module fuge_point_space
       real(dp), intent(inout), contiguous :: values(:)
     end subroutine combine
 
-    !> Send `to(r)` values to rank r, and receive `from(r)` from it: those for and from rank 0 come first. Messages may
-    !> be under way until it ends.
+    !> Send `to(r)` values to rank r, and receive `from(r)` from it: those for and from rank 0 come first. `sent` and
+    !> `received` are in use until the procedure returns.
     subroutine exchange_values(self, to, sent, from, received)
       import :: rank_group, dp
       class(rank_group), intent(in) :: self

@@ -69,7 +69,7 @@ contains
   !> `coarse_settings` those of coarser grids, `settings` those of the finest one; `scene` one that fits a window;
   !> `start` in: the forces on the grid that is `level` times coarser; out, if `solved`: those on the finest grid,
   !> otherwise unchanged, because the window would be too large or the operator has none, nor that coarser grid;
-  !> `least_compliance` as in contact_iterate, unknown to a whole grid that needs no step, 0 unless `solved`. Eleven
+  !> `least_compliance` as in conjugate_gradients, unknown to a whole grid that needs no step, 0 unless `solved`. Eleven
   !> arguments: two settings and three results. Errors: those of find_contact_set, FUGE_ERR_MEMORY.
   subroutine solve_in_window(operator, coarse_settings, settings, scene, level, monitor, start, work, solved, &
                              least_compliance, info)
@@ -221,7 +221,7 @@ contains
   end function is_worthwhile
 
   !> Solve on the window `window`, of the rows `rows`: nested iteration on its own coarser grids, then to the tolerance.
-  !> `force`: those of its cells; `least_compliance` as in contact_iterate. Eleven arguments, as of solve_in_window.
+  !> `force`: those of its cells; `least_compliance` as in conjugate_gradients. Eleven arguments, as of solve_in_window.
   subroutine solve_on_window(window, rows, coarse_settings, settings, box, scene, monitor, force, least_compliance, &
                              work, info)
     class(fuge_operator), intent(in) :: window

@@ -7,7 +7,7 @@ module fuge_iterated_set
 
   !> The contact set of the last solve.
   type, public :: iterated_set
-    !> FUGE_AT_LOWER_STOP, FUGE_OPEN or FUGE_AT_UPPER_STOP of each point, (n).
+    !> The state of each point, a constant of fuge_contact_states, (n).
     integer(int8), allocatable :: state(:)
     !> The least compliance that conjugate gradients found on it, length per force; 0 before any step.
     real(dp) :: least_compliance = 0.0_dp

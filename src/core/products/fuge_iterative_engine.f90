@@ -12,7 +12,7 @@ module fuge_iterative_engine
   use fuge_contact_scene, only: contact_scene
   use fuge_contact_set, only: contact_set, note_states
   use fuge_contact_set_search, only: find_contact_set, report_unbounded
-  use fuge_contact_states, only: FUGE_OPEN
+  use fuge_contact_states, only: FUGE_AT_LOWER_STOP
   use fuge_contact_window, only: solve_in_window, survey_level
   use fuge_engine_messages, only: idle_forces, report_closed_gap, SINGULAR_AND_UNRESISTED, SINGULAR_ON_CONTACT
   use fuge_feasible_forces, only: make_feasible
@@ -238,7 +238,7 @@ contains
       allocate (last%state(size(set%contact)), stat=stat)
       call require_memory(stat, 'the contact set of', size(set%contact), 'points', info)
     else
-      same = all((last%state /= FUGE_OPEN) .eqv. set%contact)
+      same = all((abs(last%state) == FUGE_AT_LOWER_STOP) .eqv. set%contact)
     end if
     associate (space => set%segments%space)
       call space%agree(info)

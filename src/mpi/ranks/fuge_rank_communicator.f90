@@ -139,29 +139,28 @@ contains
     call MPI_Allreduce(MPI_IN_PLACE, values, size(values), MPI_DOUBLE_PRECISION, MPI_MAX, self%comm())
   end subroutine raise
 
-  !> Messages between the ranks that have something for each other only.
+  !> Only ranks that have something for each other exchange messages. Each begins with the rank after its own, so that
+  !> not all send to the same one.
   subroutine exchange(self, to, sent, from, received)
     class(rank_communicator), intent(in) :: self
     integer, intent(in) :: to(0:), from(0:)
     real(dp), intent(in), contiguous, asynchronous :: sent(:)
     real(dp), intent(inout), contiguous, asynchronous :: received(:)
     type(MPI_Request) :: requests(2*self%size)
-    integer :: begin, n, r
+    integer :: n, r, step
 
     n = 0
-    begin = 1
-    do r = 0, self%size - 1
+    do step = 1, self%size
+      r = modulo(self%rank - step, self%size)
       if (from(r) < 1) cycle
       n = n + 1
-      call MPI_Irecv(received(begin), from(r), MPI_DOUBLE_PRECISION, r, 0, self%comm(), requests(n))
-      begin = begin + from(r)
+      call MPI_Irecv(received(sum(from(:r - 1)) + 1), from(r), MPI_DOUBLE_PRECISION, r, 0, self%comm(), requests(n))
     end do
-    begin = 1
-    do r = 0, self%size - 1
+    do step = 1, self%size
+      r = modulo(self%rank + step, self%size)
       if (to(r) < 1) cycle
       n = n + 1
-      call MPI_Isend(sent(begin), to(r), MPI_DOUBLE_PRECISION, r, 0, self%comm(), requests(n))
-      begin = begin + to(r)
+      call MPI_Isend(sent(sum(to(:r - 1)) + 1), to(r), MPI_DOUBLE_PRECISION, r, 0, self%comm(), requests(n))
     end do
     call MPI_Waitall(n, requests, MPI_STATUSES_IGNORE)
   end subroutine exchange

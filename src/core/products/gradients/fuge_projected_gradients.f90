@@ -65,10 +65,10 @@ contains
       gradients%converged = .false.
       call gradients%lanczos%restart()
       gradients%unbounded = .false.
-      if (allocated(gradients%start)) gradients%start = iterate%force
       preconditioned = operator%has_preconditioner()
       call evaluate_iterate(operator, scene, iterate, info)
       if (info%failed()) return
+      if (allocated(gradients%start)) gradients%start = iterate%force
       limit = min(ITERATIONS_PER_POINT*min(segments%points, MAX_ITERATIONS) + EXTRA_ITERATIONS, MAX_ITERATIONS)
       call clear_direction(gradients)
       previous = 1.0_dp

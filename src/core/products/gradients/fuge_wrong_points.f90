@@ -146,7 +146,7 @@ contains
     end if
   end function is_wrong
 
-  !> Point `k`, in the wrong state, goes to the one next to it.
+  !> Point `k`, in the wrong state, takes the neighbouring state.
   pure subroutine change_state(scene, k, iterate)
     type(contact_scene), intent(in) :: scene
     integer, intent(in) :: k
@@ -159,7 +159,7 @@ contains
     end if
   end subroutine change_state
 
-  !> Each point in the wrong state, by more than `noise` if it is not in contact, goes to the one next to it; with
+  !> Each point in the wrong state, by more than `noise` if it is not in contact, takes the neighbouring state; with
   !> `extrapolate`, for forces without limits only, more points leave the contact set and fewer join it, as
   !> fuge_set_exchange explains. Error: FUGE_ERR_MEMORY.
   subroutine exchange_wrong_points(scene, noise, extrapolate, iterate, info)

@@ -14,14 +14,16 @@ module fuge_conjugate_gradients
   real(dp), parameter, public :: NEARLY = 100.0_dp
 
   !> Vectors and numbers of conjugate gradients; scaled as forces and gaps of the scene are. There are no vectors before
-  !> `prepare`: a search in single precision, which mostly is the only one, has its own.
+  !> `prepare`: a search in single precision has its own, and a plain scene needs no others. Between runs the direction
+  !> and `work` serve whoever makes forces feasible.
   type, public :: conjugate_gradients
     !> Gap plus displacement less motion, and the search direction (force), (n); both are zero off
     !> the contact set.
     real(dp), allocatable :: residual(:), direction(:)
     !> In turn the preconditioned residual and the displacement by `direction`, (n).
     real(dp), allocatable :: work(:)
-    !> Forces at the start of the last run, (n); allocated where they may grow without bound.
+    !> Forces at the start of the last run, (n); allocated once a run was prepared in which forces may grow without
+    !> bound.
     real(dp), allocatable :: start(:)
     !> With modes: the largest residual norm since the last projection of the residual.
     real(dp) :: unprojected = 0.0_dp
@@ -46,8 +48,8 @@ module fuge_conjugate_gradients
 
 contains
 
-  !> Allocate the vectors for `n` points here, unless they are there, with `start` where forces `may_grow` without bound.
-  !> Error, on any rank of `space`: FUGE_ERR_MEMORY.
+  !> Allocate those of the vectors for `n` points here that are not there yet, `start` where forces `may_grow` without
+  !> bound. All ranks of `space` call it alike. Error, on any of them: FUGE_ERR_MEMORY.
   subroutine prepare(self, n, may_grow, space, info)
     class(conjugate_gradients), intent(inout) :: self
     integer, intent(in) :: n
@@ -56,9 +58,12 @@ contains
     type(fuge_info), intent(inout) :: info
     integer :: stat
 
-    if (allocated(self%work)) return
-    allocate (self%residual(n), self%direction(n), self%work(n), stat=stat)
-    if (stat == 0 .and. may_grow) allocate (self%start(n), stat=stat)
+    if (allocated(self%work) .and. (allocated(self%start) .or. .not. may_grow)) return
+    stat = 0
+    if (.not. allocated(self%residual)) allocate (self%residual(n), stat=stat)
+    if (stat == 0 .and. .not. allocated(self%direction)) allocate (self%direction(n), stat=stat)
+    if (stat == 0 .and. .not. allocated(self%start) .and. may_grow) allocate (self%start(n), stat=stat)
+    if (stat == 0 .and. .not. allocated(self%work)) allocate (self%work(n), stat=stat)
     call require_memory(stat, 'the work space of', n, 'points', info)
     call space%agree(info)
   end subroutine prepare

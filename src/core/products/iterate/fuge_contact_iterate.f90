@@ -44,7 +44,7 @@ contains
     call require_memory(stat, 'the work space of', n, 'points', info)
     call scene%rows%agree(info)
     if (stat /= 0 .or. info%failed()) return
-    ! Feasible forces of these scenes need room in any search.
+    ! To make forces of these scenes feasible takes the direction or `work`.
     if (allocated(scene%modes) .or. allocated(scene%play) .or. scene%has_limits()) then
       call iterate%gradients%prepare(n, scene%prescribed, scene%rows%point_space, info)
       if (info%failed()) return

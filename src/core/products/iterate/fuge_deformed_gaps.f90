@@ -51,7 +51,7 @@ contains
     end select
   end function overlap_at
 
-  !> Is point `k` below its lower stop, and does that push?
+  !> Is point `k` below its lower stop, and does that stop push?
   pure function is_below(scene, iterate, k)
     type(contact_scene), intent(in) :: scene
     type(contact_iterate), intent(in) :: iterate

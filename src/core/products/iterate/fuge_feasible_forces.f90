@@ -73,7 +73,8 @@ contains
                                                set%force, possible)
   end subroutine keep_resultants
 
-  !> No forces off the contact set, nor of the wrong sign on it.
+  !> Open points lose their forces, and those in contact what is beyond the range of their stop; points at limits keep
+  !> theirs.
   subroutine clip_forces(scene, set)
     type(contact_scene), intent(in), target :: scene
     type(contact_set), intent(inout), target :: set

@@ -10,7 +10,7 @@ module fuge_iterate_pass
   implicit none
   private
 
-  !> A pass, of which one chunk takes no more than its loop. Its operation needs what is associated.
+  !> A pass, of which one chunk takes no more than its loop. Associate what the operation uses.
   type, extends(chunked_pass), public :: iterate_pass
     type(contact_scene), pointer :: scene => null()
     type(contact_iterate), pointer :: iterate => null()

@@ -83,7 +83,6 @@ contains
     pass%unit = unit_of(space%largest(pass%largest(1)))
     call pass%go(round_values, 0)
     call self%extension%extend(self%values)
-    if (info%failed()) return
     call pass%go(extend_residual, 0)
     call precondition(operator, self%residual, force, info)
     if (info%failed()) return
@@ -93,7 +92,6 @@ contains
     pass%unit = unit_of(space%largest(pass%largest(1)))
     call pass%go(round_open_values, 0)
     call self%extension%collect(self%values)
-    if (info%failed()) return
     call pass%go(add_collected, 0)
   end subroutine apply
 

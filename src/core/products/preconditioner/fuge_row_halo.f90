@@ -9,7 +9,8 @@ module fuge_row_halo
   !> Which rows the halos of all ranks have, and space for messages. Set it once, then use it any number of times.
   type, public :: row_halo
     private
-    !> Values for each rank where its halo is fetched, and values from it, (0:ranks - 1).
+    !> How many values are sent to each rank to fetch halos, and received from it, (0:ranks - 1); `collect` goes the
+    !> other way.
     integer, allocatable :: to(:), from(:)
     !> Rows of this rank that go to halos, and rows of its halo, each in the order of the ranks at the other end.
     integer, allocatable :: own(:), beside(:)
@@ -24,31 +25,39 @@ contains
 
   !> Find the rows of all halos of a grid that ranks share; `stat` /= 0: there is no memory.
   subroutine set(self, rows, stat)
-    class(row_halo), intent(inout) :: self
+    class(row_halo), intent(out) :: self
     type(shared_rows), intent(in) :: rows
     integer, intent(out) :: stat
-    integer :: mine(2), n, r, ranks, side
+    integer :: me, mine(2), n, r, ranks, side, sent, wanted
 
     ranks = rows%members()
+    me = rows%number()
     n = rows%cells(1)
     mine = rows%own()
-    allocate (self%to(0:ranks - 1), self%from(0:ranks - 1), self%own(0), self%beside(0), stat=stat)
+    allocate (self%to(0:ranks - 1), self%from(0:ranks - 1), stat=stat)
     if (stat /= 0) return
-    self%to = 0
-    self%from = 0
+    do r = 0, ranks - 1
+      self%to(r) = n*count([(has_row(rows, me, row_beside(rows, r, side)), side=1, 2)])
+      self%from(r) = n*count([(has_row(rows, r, row_beside(rows, me, side)), side=1, 2)])
+    end do
+    sent = sum(self%to)
+    wanted = sum(self%from)
+    allocate (self%own(sent/n), self%beside(wanted/n), self%own_values(sent), self%beside_values(wanted), stat=stat)
+    if (stat /= 0) return
+    sent = 0
+    wanted = 0
     do r = 0, ranks - 1
       do side = 1, 2
-        if (has_row(rows, rows%number(), row_beside(rows, r, side))) then
-          self%own = [self%own, row_beside(rows, r, side)]
-          self%to(r) = self%to(r) + n
+        if (has_row(rows, me, row_beside(rows, r, side))) then
+          sent = sent + 1
+          self%own(sent) = row_beside(rows, r, side)
         end if
-        if (has_row(rows, r, row_beside(rows, rows%number(), side))) then
-          self%beside = [self%beside, merge(mine(1) - 1, mine(2) + 1, side == 1)]
-          self%from(r) = self%from(r) + n
+        if (has_row(rows, r, row_beside(rows, me, side))) then
+          wanted = wanted + 1
+          self%beside(wanted) = merge(mine(1) - 1, mine(2) + 1, side == 1)
         end if
       end do
     end do
-    allocate (self%own_values(n*size(self%own)), self%beside_values(n*size(self%beside)), stat=stat)
   end subroutine set
 
   !> The row of the grid before those of rank `r`, `side` 1, or after them, 2.

@@ -126,8 +126,8 @@ contains
       call point_to_level(self, l, pass)
       if (present(slope)) pass%cover_growth = growth_of(slope(min(l, size(slope)) - 1))
       call pass%go(sum_cover, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
-      call add_up(pass%fine, pass%coarse, pass%coarse%inverse)
-      call fetch_halo(pass%coarse, pass%coarse%inverse)
+      call add_up(pass%fine, pass%coarse, .true.)
+      call fetch_halo(pass%coarse, .true.)
       call pass%go(cover_cells, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
     end do
     if (self%depth == 1) return
@@ -211,13 +211,17 @@ contains
     level%rows%first = (fine%first + 2)/2
   end subroutine share_rows
 
-  !> Add up the rows of `values`, of the grid `coarse`, which each rank has found from its rows of `fine`.
-  subroutine add_up(fine, coarse, values)
+  !> Add up the rows of the grid `coarse`, of its values or `of_cover`, which each rank has found from its rows of
+  !> `fine`.
+  subroutine add_up(fine, coarse, of_cover)
     type(extension_level), intent(in) :: fine
-    type(extension_level), intent(inout) :: coarse
-    real(sp), intent(inout), contiguous :: values(:, :)
+    type(extension_level), intent(inout), target :: coarse
+    logical, intent(in) :: of_cover
+    real(sp), pointer, contiguous :: values(:, :)
     integer :: j, n
 
+    values => coarse%values
+    if (of_cover) values => coarse%inverse
     if (.not. coarse%rows%is_alone()) then
       call coarse%halo%collect(coarse%rows, coarse%first - 1, values)
     else if (.not. fine%rows%is_alone()) then
@@ -232,11 +236,15 @@ contains
     end if
   end subroutine add_up
 
-  !> Copy the rows of the halo of `values` from the ranks that have them; nothing where all rows are here.
-  subroutine fetch_halo(level, values)
-    type(extension_level), intent(inout) :: level
-    real(sp), intent(inout), contiguous :: values(:, :)
+  !> Copy the rows of the halo, of the values or `of_cover`, from the ranks that have them; nothing where all rows are
+  !> here.
+  subroutine fetch_halo(level, of_cover)
+    type(extension_level), intent(inout), target :: level
+    logical, intent(in) :: of_cover
+    real(sp), pointer, contiguous :: values(:, :)
 
+    values => level%values
+    if (of_cover) values => level%inverse
     if (.not. level%rows%is_alone()) call level%halo%fetch(level%rows, level%first - 1, values)
   end subroutine fetch_halo
 
@@ -259,11 +267,11 @@ contains
     do l = 1, self%depth - 1
       call point_to(self, l, values, pass)
       call pass%go(average_cells, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
-      call add_up(pass%fine, pass%coarse, pass%coarse%values)
+      call add_up(pass%fine, pass%coarse, .false.)
     end do
     do l = self%depth - 1, 1, -1
       call point_to(self, l, values, pass)
-      call fetch_halo(pass%coarse, pass%coarse%values)
+      call fetch_halo(pass%coarse, .false.)
       call pass%go(fill_cells, pass%fine%first, pass%fine%last)
     end do
   end subroutine extend
@@ -279,11 +287,11 @@ contains
     do l = 1, self%depth - 1
       call point_to(self, l, values, pass)
       call pass%go(collect_cells, lbound(pass%coarse%values, 2), ubound(pass%coarse%values, 2))
-      call add_up(pass%fine, pass%coarse, pass%coarse%values)
+      call add_up(pass%fine, pass%coarse, .false.)
     end do
     do l = self%depth - 1, 1, -1
       call point_to(self, l, values, pass)
-      call fetch_halo(pass%coarse, pass%coarse%values)
+      call fetch_halo(pass%coarse, .false.)
       call pass%go(spread_cells, pass%fine%first, pass%fine%last)
     end do
   end subroutine collect
