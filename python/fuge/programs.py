@@ -119,7 +119,7 @@ def _words_of_programs(name: str, matrix: Any, kind: str) -> Iterator[None]:
     except MatrixError as failure:
         if failure.status != Status.ERR_NOT_SYMMETRIC:
             raise MatrixError(f"{name} is not positive {kind}, to rounding", failure.status) from failure
-        i, j = map(int, np.unravel_index(int(abs(matrix - matrix.T).argmax()), matrix.shape))
+        i, j = sorted(map(int, np.unravel_index(int(abs(matrix - matrix.T).argmax()), matrix.shape)))
         raise MatrixError(
             f"{name}[{i}, {j}] = {matrix[i, j]:g} and {name}[{j}, {i}] = {matrix[j, i]:g} differ: {name} has to be "
             f"symmetric; if that is rounding, pass ({name} + {name}.T)/2",

@@ -81,7 +81,7 @@ contains
   subroutine return_values(self, to, sent, from, received)
     class(lone_group), intent(in) :: self
     integer, intent(in) :: to(0:), from(0:)
-    real(dp), intent(in), contiguous, asynchronous :: sent(:)
+    real(dp), intent(in), contiguous :: sent(:)
     real(dp), intent(inout), contiguous, asynchronous :: received(:)
 
     if (self%members() == size(to) .and. to(0) == from(0)) received(:from(0)) = sent(:to(0))

@@ -42,7 +42,7 @@ module fuge_point_space
       import :: rank_group, dp
       class(rank_group), intent(in) :: self
       integer, intent(in) :: to(0:), from(0:)
-      real(dp), intent(in), contiguous, asynchronous :: sent(:)
+      real(dp), intent(in), contiguous :: sent(:)
       real(dp), intent(inout), contiguous, asynchronous :: received(:)
     end subroutine exchange_values
 

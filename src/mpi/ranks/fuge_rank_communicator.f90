@@ -144,7 +144,7 @@ contains
   subroutine exchange(self, to, sent, from, received)
     class(rank_communicator), intent(in) :: self
     integer, intent(in) :: to(0:), from(0:)
-    real(dp), intent(in), contiguous, asynchronous :: sent(:)
+    real(dp), intent(in), contiguous :: sent(:)
     real(dp), intent(inout), contiguous, asynchronous :: received(:)
     type(MPI_Request) :: requests(2*self%size)
     integer :: n, r, step
