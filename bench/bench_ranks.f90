@@ -9,7 +9,8 @@ module bench_ranks
 
 contains
 
-  !> The points `first` to `last` of a contact problem, whose motions have no matrix but that of its modes.
+  !> The points `first` to `last` of a contact problem of bench_general_scenes: compliances and loads of points, which
+  !> these do not have, would stay whole.
   pure function part_of(problem, first, last) result(part)
     type(fuge_problem), intent(in) :: problem
     integer, intent(in) :: first, last
