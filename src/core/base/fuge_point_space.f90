@@ -71,6 +71,7 @@ module fuge_point_space
     procedure :: anywhere
     procedure :: everywhere
     procedure :: take_from_least
+    procedure :: keep_least
     procedure :: agree
   end type point_space
 
@@ -199,6 +200,18 @@ contains
     if (abs(owner - real(self%number(), dp)) > 0.0_dp) values = 0.0_dp
     call self%group%add(values)
   end subroutine take_from_least
+
+  !> Of a `point` of each rank only that with the least `key` remains, the others become 0.
+  subroutine keep_least(self, key, point)
+    class(point_space), intent(in) :: self
+    real(dp), intent(in) :: key
+    integer, intent(inout) :: point
+    real(dp) :: owner(1)
+
+    owner = real(self%number(), dp)
+    call self%take_from_least(key, owner)
+    if (abs(owner(1) - real(self%number(), dp)) > 0.0_dp) point = 0
+  end subroutine keep_least
 
   !> If `info` is an error on any rank, give it to all ranks; the message names the rank.
   subroutine agree(self, info)

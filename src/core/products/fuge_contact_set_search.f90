@@ -353,11 +353,8 @@ contains
                 //'free the rigid motion that can, or change the gaps')
   end subroutine report_unbounded
 
-  !> Confirm a contact set without wrong points by a fresh product, because displacements and
-  !> residuals updated by recurrence drift.
-  !>
-  !> `confirmed` if the residual is within the tolerance, or has not halved since the last
-  !> confirmation, `previous_residual`: then only rounding is left, and the certificate decides.
+  !> Confirm a contact set without wrong points by a fresh product, because displacements and residuals updated by
+  !> recurrence drift. `previous_residual` of the last confirmation.
   subroutine confirm_contact_set(operator, settings, scene, previous_residual, iterate, confirmed, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
@@ -372,9 +369,7 @@ contains
     if (.not. info%failed()) call evaluate_iterate(operator, scene, iterate, info)
     if (info%failed()) return
     call set_tension_noise(settings, scene, iterate%lengths, iterate%gradients%softness, iterate%contact_set)
-    confirmed = iterate%lengths%is_accurate(SAFETY*settings%tolerance) &
-                .or. .not. iterate%lengths%residual_norm < 0.5_dp*previous_residual
-    previous_residual = iterate%lengths%residual_norm
+    call iterate%lengths%confirm(SAFETY*settings%tolerance, previous_residual, confirmed)
   end subroutine confirm_contact_set
 
   !> Set the tension that is rounding. Only with several modes, where a point without force may be the one that resists

@@ -18,6 +18,9 @@ module fuge_unresisted_motions
 
   !> Rows of the modes that differ by less than this fraction count as one.
   real(dp), parameter :: DEPENDENT = 1.0e-12_dp
+  !> Where each mode, less its components in those before, keeps this fraction of the longest one on the resisting
+  !> points, these resist all motions: its square is far from the rounding of inner products.
+  real(dp), parameter :: CLEARLY_INDEPENDENT = 1.0e-3_dp
   !> A force below this fraction of the loads that it may carry is rounding.
   real(dp), parameter :: NO_FORCE = 1.0e-14_dp
   !> Of many forces that are at their limits the last one carries what the sum of the others leaves of the load, with
@@ -47,6 +50,7 @@ contains
     if (stat /= 0 .or. info%failed()) return
     call mark_loaded(canonical, solution, work, loaded)
     call find_unresisted_basis(canonical%modes, loaded, basis, canonical%space)
+    if (size(basis, 2) < 1) return
     call find_resistance(canonical, solution, loaded, work, resists_closing, resists_opening)
     least = merge(-huge(least), 0.0_dp, resists_opening)
     most = merge(huge(most), 0.0_dp, resists_closing)
@@ -162,6 +166,10 @@ contains
 
     if (present(sharing)) space = sharing
     m = size(modes, 2)
+    if (are_clearly_resisted(modes, resists, space)) then
+      allocate (basis(m, 0))
+      return
+    end if
     allocate (rows(m, count(resists)), spanning(m, m*space%members()), stat=status)
     if (space%everywhere(status == 0)) then
       call pack_rows(modes, resists, rows)
@@ -178,6 +186,38 @@ contains
     ! Without memory no motion counts as unresisted.
     allocate (basis(m, 0))
   end subroutine find_unresisted_basis
+
+  !> Are the modes so far from dependent at the points marked in `resists` (n) that their inner products there tell it?
+  !> That takes one pass over large arrays. False tells nothing.
+  function are_clearly_resisted(modes, resists, space) result(resisted)
+    real(dp), intent(in) :: modes(:, :)
+    logical, intent(in) :: resists(:)
+    type(point_space), intent(in) :: space
+    logical :: resisted
+    real(dp) :: inner(size(modes, 2), size(modes, 2)), products(size(inner)), least
+    integer :: j, k
+
+    inner = 0.0_dp
+    do k = 1, size(resists)
+      if (.not. resists(k)) cycle
+      do j = 1, size(modes, 2)
+        inner(:, j) = inner(:, j) + modes(k, :)*modes(k, j)
+      end do
+    end do
+    products = reshape(inner, shape(products))
+    call space%add(products)
+    inner = reshape(products, shape(inner))
+    least = CLEARLY_INDEPENDENT**2*maxval(products)
+    resisted = .true.
+    ! Cholesky's elimination leaves the squares of the remaining lengths on the diagonal.
+    do j = 1, size(inner, 2)
+      resisted = resisted .and. inner(j, j) > least
+      if (.not. resisted) return
+      do k = j + 1, size(inner, 2)
+        inner(j + 1:, k) = inner(j + 1:, k) - inner(j + 1:, j)*(inner(j, k)/inner(j, j))
+      end do
+    end do
+  end function are_clearly_resisted
 
   !> The rows of the `modes` (n, m) at the points `marked` (n), as the columns of `rows`.
   pure subroutine pack_rows(modes, marked, rows)

@@ -8,7 +8,7 @@ module fuge_limited_points
   implicit none
   private
 
-  public :: choose_limited_contact, keep_on_one_rank, release_furthest, set_balanced_forces, step_to_limit
+  public :: choose_limited_contact, release_furthest, set_balanced_forces, step_to_limit
 
   !> Forces this near to their limits, as a fraction of these, are there.
   real(dp), parameter :: ROUNDING = 1.0e-12_dp
@@ -93,7 +93,7 @@ contains
       step_length = fraction
       blocking = k
     end do
-    call keep_on_one_rank(scene, step_length, blocking)
+    call scene%rows%keep_least(step_length, blocking)
     step_length = scene%rows%least(step_length)
     if (step_length >= huge(step_length)) return
     if (step_length < 0.0_dp .and. blocking > 0) locked(blocking) = .true.
@@ -104,18 +104,6 @@ contains
       set%force(k) = start(k) + step_length*(set%force(k) - start(k))
     end do
   end subroutine step_to_limit
-
-  !> Of the points of the ranks only that with the least `key` remains, the others become 0.
-  subroutine keep_on_one_rank(scene, key, point)
-    type(contact_scene), intent(in) :: scene
-    real(dp), intent(in) :: key
-    integer, intent(inout) :: point
-    real(dp) :: owner(1)
-
-    owner = real(scene%rows%number(), dp)
-    call scene%rows%take_from_least(key, owner)
-    if (abs(owner(1) - real(scene%rows%number(), dp)) > 0.0_dp) point = 0
-  end subroutine keep_on_one_rank
 
   !> Of the points at the limit of their lower stop, the one that is furthest above the stop comes back to it; only
   !> points with forces above `least` do.
@@ -134,7 +122,7 @@ contains
       furthest = scene%gap(k) + iterate%displacement(k)
       point = k
     end do
-    call keep_on_one_rank(scene, -furthest, point)
+    call scene%rows%keep_least(-furthest, point)
     if (point > 0) call return_to_stop(scene, .true., point, iterate%contact_set)
   end subroutine release_furthest
 

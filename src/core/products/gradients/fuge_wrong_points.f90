@@ -9,7 +9,7 @@ module fuge_wrong_points
   use fuge_deformed_gaps, only: deformed_gap, is_below, overlap_at
   use fuge_iterate_pass, only: iterate_pass
   use fuge_kinds, only: dp
-  use fuge_limited_points, only: choose_limited_contact, keep_on_one_rank
+  use fuge_limited_points, only: choose_limited_contact
   use fuge_point_chunks, only: chunked_pass
   use fuge_shared_exchange, only: exchange_in_line
   use fuge_status, only: fuge_info, require_memory
@@ -274,7 +274,7 @@ contains
       deepest = k
       greatest = depth
     end do
-    call keep_on_one_rank(scene, -greatest, deepest)
+    call scene%rows%keep_least(-greatest, deepest)
   end function deepest_open_point
 
   !> The greatest tension in the contact set, or excess of a force over its range; 0 if there is none.

@@ -23,6 +23,7 @@ module fuge_iterate_lengths
   contains
     procedure :: allowed
     procedure :: is_accurate
+    procedure :: confirm
     procedure :: relative_error
     procedure :: note_start
   end type iterate_lengths
@@ -46,6 +47,19 @@ contains
 
     is_accurate = self%residual_norm <= self%allowed(tolerance)
   end function is_accurate
+
+  !> Is a contact set that these lengths, from a fresh product, belong to confirmed? The residual is within `tolerance`,
+  !> or has not halved since the last confirmation, `previous_residual`, which it replaces: then only rounding is left,
+  !> and the certificate decides.
+  subroutine confirm(self, tolerance, previous_residual, confirmed)
+    class(iterate_lengths), intent(in) :: self
+    real(dp), intent(in) :: tolerance
+    real(dp), intent(inout) :: previous_residual
+    logical, intent(out) :: confirmed
+
+    confirmed = self%is_accurate(tolerance) .or. .not. self%residual_norm < 0.5_dp*previous_residual
+    previous_residual = self%residual_norm
+  end subroutine confirm
 
   !> The greater of residual norm and penetration over the least magnitude; huge where that is zero.
   pure function relative_error(self) result(error)

@@ -367,9 +367,8 @@ contains
     points = nint(found(3))
   end subroutine exchange
 
-  !> Confirm a contact set without wrong points, whose forces have the sum `total`, by a product in double precision;
-  !> `confirmed` if the residual is within the tolerance, or has not halved since the last confirmation,
-  !> `previous_residual`. The arguments are nine, as of confirm_contact_set, the state and the sum.
+  !> Confirm a contact set without wrong points, whose forces have the sum `total`, by a product in double precision.
+  !> `previous_residual` of the last confirmation. The arguments are nine, as of confirm_contact_set, the state and the sum.
   subroutine confirm(operator, settings, scene, total, previous_residual, state, iterate, confirmed, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
@@ -385,9 +384,7 @@ contains
     call set_load(settings, scene, total, state, iterate, info)
     if (.not. info%failed()) call refresh(operator, scene, .false., state, iterate, info)
     if (info%failed()) return
-    confirmed = iterate%lengths%is_accurate(SAFETY*settings%tolerance) &
-                .or. .not. iterate%lengths%residual_norm < 0.5_dp*previous_residual
-    previous_residual = iterate%lengths%residual_norm
+    call iterate%lengths%confirm(SAFETY*settings%tolerance, previous_residual, confirmed)
   end subroutine confirm
 
 end module fuge_single_search
