@@ -79,6 +79,6 @@ def body_table(bodies):
                      seconds(displaced[0]), memory(held[0])])
     others = (("two meshes that do not match", "`fuge_solve_bodies`", "[where it goes](#where-the-time-goes)"),
               ("a band or a full matrix", "`fuge_band_stiffness`, `fuge_dense_stiffness`", ""),
-              ("files of CalculiX, Abaqus or Nastran", "the command `fuge`", "[files.md](files.md)"))
+              ("files of CalculiX, Abaqus or Nastran", "the command `fuge`", "[command.md](command.md)"))
     rows += [[name, call, "of the mesh", time, "", "", ""] for name, call, time in others]
     return table(head, rows, 2)
