@@ -368,7 +368,8 @@ contains
   end subroutine exchange
 
   !> Confirm a contact set without wrong points, whose forces have the sum `total`, by a product in double precision.
-  !> `previous_residual` of the last confirmation. The arguments are nine, as of confirm_contact_set, the state and the sum.
+  !> `previous_residual` of the last confirmation. The arguments are nine: those of confirm_contact_set, the state and
+  !> the sum.
   subroutine confirm(operator, settings, scene, total, previous_residual, state, iterate, confirmed, info)
     class(fuge_operator), intent(in) :: operator
     type(search_settings), intent(in) :: settings
